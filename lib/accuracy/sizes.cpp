@@ -12,11 +12,14 @@ double order_of_sizes(double d1, double d2, double r1, double r2, double kept) {
   if (!(d1 > 0)) return highest;
   const auto ratio = [&](double p) { return (std::pow(r2, p) - 1) / (std::pow(r1, p) - 1); };
   double low = lowest, high = highest;
-  if (!(d2 / d1 > ratio(low))) return low;
-  if (d2 / d1 >= ratio(high)) return high;
+  // It rises with the order for larger cells, and falls for smaller ones.
+  const double rising = ratio(high) >= ratio(low) ? 1 : -1;
+  const auto below = [&](double p) { return rising * ratio(p) < rising * d2 / d1; };
+  if (!below(low)) return low;
+  if (below(high)) return high;
   for (int n = 0; n < 40; ++n) {
     const double middle = (low + high) / 2;
-    (ratio(middle) < d2 / d1 ? low : high) = middle;
+    (below(middle) ? low : high) = middle;
   }
   return (low + high) / 2;
 }

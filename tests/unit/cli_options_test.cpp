@@ -75,7 +75,7 @@ TEST(Options, KeepTheirDefaultsWhenNotGiven) {
 
 TEST(Options, ProvenanceLeavesOutWhatDoesNotChangeTheOutput) {
   const auto outcome = run({"-q", "--threads", "2", "--source", "it's 1,2", "--output", "x y", "m.nc", "-v"});
-  EXPECT_EQ(outcome.command_line, "sw-test --source 'it'\\''s 1,2' m.nc");
+  EXPECT_EQ(outcome.command_line, "sw-test m.nc --source 'it'\\''s 1,2'");
   EXPECT_EQ(outcome.threads, 2);
 }
 

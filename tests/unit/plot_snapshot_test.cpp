@@ -53,9 +53,10 @@ TEST_F(PlotSnapshot, IsReadBackTimeByTime) {
 
 TEST_F(PlotSnapshot, TakesTheNearestTime) {
   const auto reader = written();
-  EXPECT_EQ(reader.nearest(-1), 0u);
+  EXPECT_EQ(reader.nearest(0), 0u);
   EXPECT_EQ(reader.nearest(0.06), 1u);
-  EXPECT_EQ(reader.nearest(7), 2u);
+  EXPECT_EQ(reader.nearest(0.2), 2u);
+  for (const double outside : {-1., 7.}) EXPECT_THROW(reader.nearest(outside), Error) << outside;
 }
 
 TEST_F(PlotSnapshot, NamesTheFieldsThereAre) {

@@ -182,6 +182,7 @@ TEST_F(PlotSpectrum, AWavenumberStandsWhereItBelongsWithItsDecibels) {
   spectra.lines[70].values[30] = 1;
   spectra.lines[10].values[80] = 0.01;
   Look look;
+  look.x = Limits{-0.0505, 0.0495};
   look.y = Limits{0, 100};
   look.map = "white-black";
   const auto pixels = decoded(draw_spectra({spectra}, true, look, page_of_size("1000x800px")).bytes);

@@ -154,7 +154,7 @@ TEST(SegyFile, CarriesHeadersOfAnotherFileUnchanged) {
   auto b = bytes_of(scratch.file("b"));
   EXPECT_EQ(std::vector<std::uint8_t>(a.begin() + 3200, a.end()),
             std::vector<std::uint8_t>(b.begin() + 3200, b.end()));
-  EXPECT_NE(Reader(scratch.file("b")).header().text.find("sw-nothing a"), std::string::npos);
+  EXPECT_NE(Reader(scratch.file("b")).header().text.find("sw-nothing"), std::string::npos);
   EXPECT_NE(Reader(scratch.file("b")).header().text.find("sw-shoot model.nc"), std::string::npos);
 }
 
