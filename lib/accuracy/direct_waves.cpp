@@ -128,10 +128,12 @@ void DirectWaves<D>::add_shot(const Scene<D>& scene, std::size_t shot) {
     for (auto& part : way) part /= r;
     const auto sent = radiation(*injection, speeds_at(medium, source.position_m), way);
     const double angle = std::acos(std::clamp(way[D - 1], -1., 1.)), spread = std::pow(r, D - 1);
-    add_ray(medium, source.position_m, to, {WaveKind::p, sent[0] / spread, angle, {}},
-            scene.recording.duration_s);
-    add_ray(medium, source.position_m, to, {WaveKind::s, sent[1] / spread, angle, {}},
-            scene.recording.duration_s);
+    // Less than this of both is rounding: explosions send no S waves.
+    const double least = 1e-12 * (sent[0] + sent[1]);
+    for (const auto& [kind, energy] : {std::pair{WaveKind::p, sent[0]}, {WaveKind::s, sent[1]}})
+      if (energy > least)
+        add_ray(medium, source.position_m, to, {kind, energy / spread, angle, {}},
+                scene.recording.duration_s);
   });
 }
 
