@@ -121,7 +121,6 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       halo_(make_halo()),
       executor_(builder().executor(sweeps_, step_, halo_.get())),
       stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
-  sweeps_.split_faces(domain_, dt_s_, unit_);
   // Everything that depends on them is built.
   domain_.release_impedances();
   attenuating_.reset();
