@@ -67,6 +67,7 @@ void declare(cli::Options& options, Settings& settings) {
               "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
+  options.common({"size", "step", "layer", "log", "fit", "units", "average", "output"});
   for (const char* name : {"size", "step"}) options.require(name);
 }
 

@@ -19,6 +19,8 @@ namespace {
 using Type = NetcdfFile::Type;
 
 const std::string container = "geology";
+/// Tops of layers as messages name them, one a line.
+const std::string tops_name = "layer_tops";
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 template <class Value>
@@ -117,8 +119,10 @@ void define(NetcdfFile& file, const std::string& name, const std::vector<std::st
 
 void define_layers(NetcdfFile& file, const std::vector<Layer>& layers) {
   file.define_dimension("layer", layers.size());
-  file.define_variable("layer_top", Type::text, {"layer"});
-  file.put_attribute("layer_top", "long_name", "top of the layer as messages name it");
+  // An attribute, since older kinds of netCDF have no variables of text.
+  std::string tops;
+  for (const auto& layer : layers) tops += (tops.empty() ? "" : "\n") + layer.top.name();
+  file.put_attribute(container, tops_name, tops);
   for (const auto& column : layer_columns)
     if (is_written(column, layers)) define(file, column.name, {"layer"}, column.long_name, column.units);
   for (const auto property : given_properties(layers))
@@ -153,9 +157,6 @@ void put_layers(NetcdfFile& file, const std::vector<Layer>& layers) {
     for (const auto& layer : layers) values.push_back(value(layer));
     file.put(name, values.data());
   };
-  std::vector<std::string> tops;
-  for (const auto& layer : layers) tops.push_back(layer.top.name());
-  file.put_text("layer_top", tops);
   for (const auto& column : layer_columns)
     if (is_written(column, layers))
       put(column.name, [&](const Layer& layer) { return value_of(column, layer); });
@@ -233,7 +234,7 @@ void read_shapes(const NetcdfFile& file, std::vector<HorizonShape>& shapes) {
 }
 
 std::vector<Layer> read_layers(const NetcdfFile& file) {
-  const auto tops = file.get_text("layer_top");
+  const auto tops = split(*file.text_attribute(container, tops_name), '\n');
   std::vector<Layer> layers(tops.size());
   std::vector<HorizonShape> shapes(tops.size());
   for (std::size_t n = 0; n < tops.size(); ++n) shapes[n].name = tops[n];
@@ -378,7 +379,7 @@ Geology read_geology(const NetcdfFile& file) {
     geology.sampled_m = number_of(file, "sampled");
     geology.resampling = named(file, "resampling", resamplings);
   }
-  if (file.has_variable("layer_top")) geology.layers = read_layers(file);
+  if (file.text_attribute(container, tops_name)) geology.layers = read_layers(file);
   if (file.text_attribute(container, "seed")) geology.marmousi = marmousi_in(file);
   if (!geology.knows_places()) return geology;
   geology.fit = fit_in(file);

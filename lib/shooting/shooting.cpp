@@ -63,10 +63,8 @@ Scene<D> make_scene(const ShootingOptions& options) {
     if (!options.snapshot_every_s)
       throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
     scene.snapshot_every_s = options.snapshot_every_s;
-  } else if (options.snapshot_every_s || !output.slice.empty()) {
-    throw Error(
-        std::string(options.snapshot_every_s ? "--every" : "--slice") + " needs --snapshots, where they go",
-        ErrorKind::usage);
+  } else if (!output.slice.empty()) {
+    throw Error("--slice needs --snapshots, where they go", ErrorKind::usage);
   }
   scene.slip_diary = options.balance || (any_snapshot && output.wants_slip());
   output.check<D>(scene.survey.sources.size());

@@ -55,11 +55,16 @@ std::map<std::string, Gather> TraceFiles::gathers_by_file(RunState& state, std::
   return gathers;
 }
 
-void TraceFiles::write_file(const std::string& name, OutputFile& file, const Gather& gather,
-                            const segy::Heading& textual_header) const {
-  const auto sentences =
-      segy::write_gather(file, gather, segy::format_named_by(name, format_), textual_header);
+/// Returns what the file holds less exactly.
+std::vector<std::string> TraceFiles::write_file(const std::string& name, OutputFile& file,
+                                                const Gather& gather,
+                                                const segy::Heading& textual_header) const {
+  auto sentences = segy::write_gather(file, gather, segy::format_named_by(name, format_), textual_header);
   file.commit();
+  return sentences;
+}
+
+void TraceFiles::warn_once(const std::vector<std::string>& sentences) {
   for (const auto& sentence : sentences)
     if (warned_.insert(sentence).second) warn_(sentence);
 }
@@ -69,7 +74,7 @@ void TraceFiles::write(RunState& state, std::size_t shots) {
     if (state.gather(shot)) open(shot);
   auto gathers = gathers_by_file(state, shots);
   for (auto& [name, file] : files_) {
-    write_file(name, file, gathers[name], textual_header_);
+    warn_once(write_file(name, file, gathers[name], textual_header_));
   }
   files_.clear();
   for (std::size_t shot = 1; shot <= shots; ++shot)
@@ -78,7 +83,7 @@ void TraceFiles::write(RunState& state, std::size_t shots) {
 
 void TraceFiles::write_finished(RunState& state, std::size_t shots) {
   for (const auto& [name, gather] : gathers_by_file(state, shots)) {
-    write_file(name, files_.at(name), gather, textual_header_);
+    warn_once(write_file(name, files_.at(name), gather, textual_header_));
   }
 }
 

@@ -40,8 +40,9 @@ class TraceFiles {
                       std::vector<std::string>& written) const;
 
  private:
-  void write_file(const std::string& name, OutputFile& file, const Gather& gather,
-                  const segy::Heading& textual_header) const;
+  std::vector<std::string> write_file(const std::string& name, OutputFile& file, const Gather& gather,
+                                      const segy::Heading& textual_header) const;
+  void warn_once(const std::vector<std::string>& sentences);
   std::string name(std::size_t shot, Component component) const;
   std::map<std::string, Gather> gathers_by_file(RunState& state, std::size_t shots) const;
 
@@ -50,7 +51,7 @@ class TraceFiles {
   segy::FileFormat format_;
   segy::Heading textual_header_;
   std::function<void(const std::string&)> warn_;
-  mutable std::set<std::string> warned_;
+  std::set<std::string> warned_;
   bool one_per_shot_;
   std::map<std::string, OutputFile> files_;  // open ones
 };

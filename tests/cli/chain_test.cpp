@@ -27,7 +27,7 @@ TEST_F(Chain, GoesFromLayersToInfoWithoutAFile) {
 TEST_F(Chain, KeepsEveryCommandInTheTextualHeader) {
   done(layers + "| " + fracture + "| " + shoot + "-o g.sgy");
   const auto text = done("head -c 3200 g.sgy | dd conv=ascii status=none");
-  for (const std::string tool : {"sw-layers --size 600x600", "sw-fracture - --box", "sw-shoot - --source"})
+  for (const std::string tool : {"sw-layers --size 600x600", "sw-fracture --box", "sw-shoot --source"})
     EXPECT_TRUE(has(text, tool)) << text;
 }
 

@@ -100,7 +100,7 @@ TEST_F(Export, RefusesWhatItCannotExport) {
        "fracture"},
       {"sw-export m.nc --property vp --time 1", 2, "sw-export: --time: m.nc is a model, expected snapshots"},
       {"sw-export none.nc --property vp", 1, "sw-export: none.nc: No such file or directory"},
-      {"sw-export m.nc --property vp --format double", 1,
+      {"sw-export m.nc --property vp --format double", 2,
        "sw-export: m.nc: sample format double exists since revision 2, the file is of revision 1"},
       {"sw-export m.nc --property vp --format float9", 2,
        "sw-export: --format: sample format \"float9\", expected one of ibm, int32, int16, ieee, double, "

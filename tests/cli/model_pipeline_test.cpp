@@ -47,7 +47,7 @@ TEST_F(ModelPipeline, ChainsTheHistoryOldestFirst) {
   const auto json = done("sw-info --json m.nc");
   EXPECT_TRUE(has(json,
                   "\"history\": \"sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer "
-                  "40:3000:1500:2200\\u000asw-fracture - --box 50:150,50:80 --dip 60 "))
+                  "40:3000:1500:2200\\u000asw-fracture --box 50:150,50:80 --dip 60 "))
       << json;
   EXPECT_FALSE(has(json, "m.nc\\u000a")) << "where the output goes is no part of the history";
 }

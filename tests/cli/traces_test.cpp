@@ -33,8 +33,7 @@ TEST_F(Traces, GoThroughAllToolsInOnePipe) {
   EXPECT_EQ(info("out.sgy", "interval"), "0.002 s");
   EXPECT_EQ(info("out.sgy", "samples a trace"), "201");
   const auto text = done("head -c 3200 out.sgy | dd conv=ascii status=none");
-  for (const char* tool :
-       {"sw-shoot m.nc", "sw-select line.sgy --where", "sw-sort --key", "sw-filter --taper"})
+  for (const char* tool : {"sw-shoot --", "sw-select --where", "sw-sort --key", "sw-filter --taper"})
     EXPECT_TRUE(has(text, tool)) << tool << " in\n" << text;
   EXPECT_EQ(files(), "line.sgy m.nc out.sgy");
 }
