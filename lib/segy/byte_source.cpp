@@ -62,7 +62,8 @@ std::size_t ByteSource::read_some(std::span<std::uint8_t> into) {
   ssize_t count = 0;
   do count = ::read(descriptor_, into.data(), into.size());
   while (count < 0 && errno == EINTR);
-  if (count < 0) throw Error(std::strerror(errno));
+  failed_ = count < 0;
+  if (failed_) throw Error(std::strerror(errno));
   return static_cast<std::size_t>(count);
 }
 

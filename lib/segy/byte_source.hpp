@@ -26,6 +26,8 @@ class ByteSource {
   /// Bytes from the start to the end, known for regular files only.
   std::optional<std::uint64_t> size() const noexcept { return size_; }
   std::uint64_t position() const noexcept { return position_; }
+  /// Whether reading failed, as of a disk that does: what came before may not be all there is.
+  bool failed() const noexcept { return failed_; }
 
   /// The next bytes without taking them, as many as asked for unless the input ends before;
   /// count is at most peek_limit. Valid until the next call.
@@ -54,6 +56,7 @@ class ByteSource {
   std::vector<std::uint8_t> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
+  bool failed_ = false;
 };
 
 }  // namespace slipwave::segy

@@ -195,7 +195,7 @@ bool Reader::next(RawTrace& trace) {
       return true;
     });
   } catch (const Error& error) {
-    if (!to_damage_ || delivered_ == 0) throw;
+    if (!to_damage_ || delivered_ == 0 || source_.failed()) throw;
     damage_ = error.what();
     return false;
   }

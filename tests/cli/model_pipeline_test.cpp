@@ -55,7 +55,7 @@ TEST_F(ModelPipeline, ChainsTheHistoryOldestFirst) {
 TEST_F(ModelPipeline, LaterFracturesTakeCellsFromEarlierOnes) {
   const auto text =
       done(layers + "| " + fracture + "--name first | " +
-           "sw-fracture - --box 100:200,50:80 --normal 1,0 --dip 0 --friction 0.3 --viscosity 0 "
+           "sw-fracture - --box 100:200,50:80 --normal 1,0 --dip 0 --friction 0.3 --viscosity 0 -q "
            "--name second | sw-info -");
   EXPECT_TRUE(has(text, "name first, cells 60, slip normal 0.866025,-0.5, friction 0.1")) << text;
   EXPECT_TRUE(

@@ -37,8 +37,9 @@ TEST_F(Options, AMisspeltOneIsAnsweredWithTheNearest) {
   expect_refused(layers + "--setp 5", 2, "sw-layers: unknown option --setp; did you mean --step?");
   expect_refused(layers + "--layers=3", 2, "sw-layers: unknown option --layers; did you mean --layer?");
   expect_refused(layers + "--siz 3x3", 2, "sw-layers: unknown option --siz; did you mean --size?");
-  expect_refused(layers + "--frequency 3", 2, "sw-layers: unknown option --frequency; --help lists them all");
-  expect_refused(layers + "-x", 2, "sw-layers: unknown option -x; --help lists them all");
+  expect_refused(layers + "--frequency 3", 2,
+                 "sw-layers: unknown option --frequency; --help-all lists them all");
+  expect_refused(layers + "-x", 2, "sw-layers: unknown option -x; --help-all lists them all");
 }
 
 TEST_F(Options, AreRefusedTwiceWithoutAValueOrWithOneTooMany) {
@@ -56,7 +57,7 @@ TEST_F(Options, AreRefusedTwiceWithoutAValueOrWithOneTooMany) {
 }
 
 TEST_F(Options, ThreadsBelongToToolsThatCompute) {
-  expect_refused(layers + "--threads 2", 2, "sw-layers: unknown option --threads; --help lists them all");
+  expect_refused(layers + "--threads 2", 2, "sw-layers: unknown option --threads; --help-all lists them all");
 }
 
 TEST_F(Options, NegativeNumbersAreValues) {

@@ -38,7 +38,7 @@ class ShotByRanks : public Shell {
   }
   static const std::string launcher;
   const std::string shots =
-      "m.nc --source 390,310 --source 200,50 --source 600,600 --wavelet ricker:25 --time 0.2 "
+      "m.nc --source 390,310 --source 200,50 --source 600,600 --wavelet ricker:25 --time 0.3 "
       "--receivers 0:800:20,10 --receivers 395,20 ";
 };
 

@@ -29,7 +29,8 @@ ErrorOfSizes measured_in(const std::vector<double>& sizes_m, double first, doubl
 
 double largest_difference(const std::vector<Gather>& a, const std::vector<Gather>& b) {
   double most = 0;
-  for (const auto& trace : sum_of(a, b, -1)[0].traces)
+  const auto difference = sum_of(a, b, -1);
+  for (const auto& trace : difference[0].traces)
     for (const double sample : trace.samples) most = std::max(most, std::abs(sample));
   return most;
 }
