@@ -127,6 +127,8 @@ RealTransform2::RealTransform2(std::size_t rows, std::size_t length) {
     throw Error("a Fourier transform of " + size + " samples, expected 1 to 2147483647 along each axis");
   check_memory(bytes_for(rows, length), size);
   plan_.reset(new Plan{rows, length, nullptr, nullptr, nullptr});
+  // FFTW ends the program where its planner finds no memory; this throws.
+  ::operator delete(::operator new(std::size_t(8) << 20));
   plan_->complex.reset(fftw_alloc_complex(rows * plan_->bins()));
   if (!plan_->complex) throw Error("no memory for a Fourier transform of " + size + " samples");
   {

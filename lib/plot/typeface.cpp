@@ -51,7 +51,7 @@ Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold)
 void expect_room() {
   // Typefaces, and three threads that look for them with a stack of 8 MiB each, take some 60 MiB of
   // addresses.
-  constexpr std::size_t room = std::size_t(192) << 20;
+  constexpr std::size_t room = std::size_t(128) << 20;
   ::operator delete(::operator new(room));
 }
 

@@ -57,7 +57,7 @@ TEST_F(Cube, IsFracturedInBoxesEllipsoidsAndSlabs) {
 
 TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
   done("sw-layers --size 200x120x150 " + layers + "| sw-fracture - --box 50:150,20:80,90:120 --dip 30:60 " +
-       "--dip 70:150 --normal 1,1,0 " + planes + "-o m.nc");
+       "--dip 70:150 --normal 1,1,0 " + planes + "-q -o m.nc");
   done("sw-shoot m.nc " + shot + "--receivers 20:180:20,30:90:20,5 --record vx,vy,vz -o a.sgy");
   const auto text = done("sw-info a.sgy");
   EXPECT_TRUE(has(text, "traces           108\n")) << text;

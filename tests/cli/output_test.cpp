@@ -98,7 +98,6 @@ TEST_F(Output, ThatFloatsCanNotHoldIsRefusedBeforeTheRun) {
 TEST_F(Output, TakesNoOptionInSilenceThatDoesNothing) {
   for (const std::string line :
        {"sw-plot m.nc --time 1 -o p.png",
-        "sw-shoot m.nc --source 150,50 --wavelet ricker:20 --receivers 9,9 --time 0.1 --every 0.05 -o g.sgy",
         "sw-shoot m.nc --source 150,50 --wavelet ricker:20 --receivers 9,9 --time 0.1 --reverse -o g.sgy"})
     EXPECT_EQ(run(line).code, 2) << line;
   const std::string planes = "sw-fracture m.nc --box 100:200,60:120 --viscosity 4e3 ";
