@@ -99,8 +99,9 @@ TEST(RawShape, IsToldFromTheOtherOrderWhateverTheLayering) {
           if (nx == nz && n == 3) continue;
           Grid<2> grid;
           grid.shape = {nx, nz};
-          const auto said =
-              sentence_of([&] { check_raw_shape(raw_of(sections[n], nx, nz, order), grid, read_as); });
+          const auto said = sentence_of([&, width = nx, height = nz] {
+            check_raw_shape(raw_of(sections[n], width, height, order), grid, read_as);
+          });
           EXPECT_EQ(said == "no error", order == read_as) << n << ' ' << nx << ' ' << said;
         }
 }
