@@ -30,8 +30,8 @@ class ModelInCells {
   bool could_be_fitted() const;
   /// How many horizons rows of other cells can not follow, though they were to; 0 where nothing is known.
   std::size_t left_out(double spacing_m) const;
-  /// Whether horizons cut cells, which no rows follow: where they do so differs from size to size, and no more
-  /// than first order is kept.
+  /// Whether horizons cut cells, which no rows follow: where they do so differs from size to size, and no
+  /// more than first order is kept.
   bool tops_cut_cells() const { return tops_cut_cells_; }
   /// Throws a usage Error where the size is not above zero or the model would not fit the memory, an Error as
   /// regridded() where a fitted grid cannot be made anew.

@@ -92,7 +92,7 @@ TEST(SurveyLayout, ChoosesTheCoarsestScalarThatIsExact) {
   EXPECT_EQ(scalar(100.25, 200.25), -100);
   EXPECT_EQ(scalar(0.125, 0.125), -1000);
   EXPECT_EQ(scalar(1.0 / 3, 200), -10000);  // never exact: the finest
-  EXPECT_EQ(scalar(1.0 / 3, 10e6), -100);  // 10^10 mm do not fit, 10^9 cm do
+  EXPECT_EQ(scalar(1.0 / 3, 10e6), -100);   // 10^10 mm do not fit, 10^9 cm do
   EXPECT_THROW(scalar(0, 3e9), Error);
   EXPECT_THROW(scalar(0, std::numeric_limits<double>::quiet_NaN()), Error);
 }
