@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plot/typeface.hpp"
 
+#include <sys/mman.h>
+
 #include <pango/pangocairo.h>
 
 #include <algorithm>
@@ -52,7 +54,9 @@ void expect_room() {
   // Typefaces, and three threads that look for them with a stack of 8 MiB each, take some 60 MiB of
   // addresses.
   constexpr std::size_t room = std::size_t(128) << 20;
-  ::operator delete(::operator new(room));
+  void* const addresses = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (addresses == MAP_FAILED) throw std::bad_alloc();
+  munmap(addresses, room);
 }
 
 void draw_text(_cairo* drawing, const std::string& text, double size_pt, bool bold) {
