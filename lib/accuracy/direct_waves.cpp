@@ -96,6 +96,9 @@ DirectWaves<D>::DirectWaves(const Scene<D>& scene) {
     const auto [vp, vs] = speeds_at(of.model.medium, first.position_m);
     rays_.push_back({vs > 0 ? WaveKind::s : WaveKind::p, 1, 0, {{vp, vs, of.recording.duration_s}}});
   };
+  const auto slowest = std::size_t(slowest_wave(scene.model.medium).cell);
+  const double vp = scene.model.medium.vp[slowest], vs = scene.model.medium.vs[slowest];
+  latest_ = {vs > 0 ? WaveKind::s : WaveKind::p, 1, 0, {{vp, vs, scene.recording.duration_s}}};
   if (anisotropic_cells(scene.model.medium) == 0) {
     rays_of(scene);
   } else {
@@ -208,6 +211,11 @@ double DirectWaves<D>::together(const Discretisation& cells) const {
     wrong += ray.energy * squared_error(cells, ray);
   }
   return std::sqrt(wrong / energy);
+}
+
+template <int D>
+double DirectWaves<D>::latest(const Discretisation& cells) const {
+  return std::sqrt(squared_error(cells, latest_));
 }
 
 template <int D>

@@ -37,6 +37,8 @@ class DirectWaves {
   /// Of both together, each by its energy; where none arrives, that of the slowest waves at the sources on
   /// the way as long as the traces last.
   double together(const Discretisation& cells) const;
+  /// Of the slowest waves of the scene on the way as long as the traces last.
+  double latest(const Discretisation& cells) const;
 
  private:
   /// How long a wave travels in a medium.
@@ -61,6 +63,7 @@ class DirectWaves {
 
   std::vector<Line> band_;
   std::vector<Ray> rays_;
+  Ray latest_;
   bool arrive_ = true;
 };
 

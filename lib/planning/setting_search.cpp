@@ -65,7 +65,34 @@ double SettingSearch<D>::dispersion(const AccuracySetting& setting) const {
 template <int D>
 double SettingSearch<D>::expected(const AccuracySetting& setting, const KnownErrors& known) const {
   return std::hypot(known.dispersion * dispersion(setting),
-                    known.rest * std::pow(setting.spacing_m / known.rest_m, known.rest_order));
+                    known.rest * std::pow(setting.spacing_m, known.rest_order));
+}
+
+template <int D>
+KnownErrors SettingSearch<D>::explained(std::vector<SettingRun> runs, double rest_order) const {
+  std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+  // Squares of what one unit of k and of r makes of the error of a run, relative to it.
+  const auto by_dispersion = [&](const SettingRun& run) {
+    return std::pow(dispersion(run.setting) / run.error, 2);
+  };
+  const auto by_rest = [&](const SettingRun& run) {
+    return std::pow(std::pow(run.setting.spacing_m, rest_order) / run.error, 2);
+  };
+  const auto& best = runs.front();
+  const double d = by_dispersion(best), r = by_rest(best);
+  const double worst_off =
+      std::pow(runs_.direct().latest(runs_.discretisation_of(best.setting)) / best.error, 2);
+  double k = d > 0 ? std::min(1., worst_off) / d : 0;
+  if (runs.size() > 1) {
+    const double other_d = by_dispersion(runs[1]), other_r = by_rest(runs[1]);
+    const double determinant = d * other_r - r * other_d;
+    k = determinant == 0 ? k : std::clamp((other_r - r) / determinant, 0., d > 0 ? 1 / d : 0);
+  }
+  KnownErrors known;
+  known.dispersion = std::sqrt(k);
+  known.rest = std::sqrt(std::max(0., 1 - k * d) / r);
+  known.rest_order = rest_order;
+  return known;
 }
 
 template <int D>
@@ -100,7 +127,8 @@ std::optional<AccuracySetting> SettingSearch<D>::cheapest(double wanted, const K
                               scheme.time_order, scene_.numerics.monotone,
                               zone_cells};
       // The largest cells that do, by halving; a larger size is as large an error at least.
-      double low = std::log(std::min(finest_m, largest_m_)), high = std::log(largest_m_);
+      const double largest_m = std::min(largest_m_, known.largest_m);
+      double low = std::log(std::min(finest_m, largest_m)), high = std::log(largest_m);
       for (int n = 0; n < 14; ++n) {
         setting.spacing_m = std::exp((low + high) / 2);
         (expected(setting, known) <= wanted ? low : high) = (low + high) / 2;

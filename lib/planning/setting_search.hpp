@@ -2,18 +2,28 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "planning/scene_runs.hpp"
 
 namespace slipwave {
 
 /// What is known of the errors of a scene's settings: what dispersion does to direct waves, as it is derived,
-/// times a factor that was measured, and all the rest, which falls with a power of the size of cells.
+/// times a factor that was measured (other waves travel longer, or are slower), and all the rest, which falls
+/// with a power of the size of cells.
 struct KnownErrors {
   double dispersion = 1;
-  double rest = 0, rest_m = 1;  // in cells of that size
+  double rest = 0;  // in cells of 1 m
   double rest_order = 2;
+  double largest_m = std::numeric_limits<double>::infinity();  // cells that were too large are the largest
+};
+
+/// A setting that was run, and the error measured of it: relative L2.
+struct SettingRun {
+  AccuracySetting setting;
+  double error = 0;
 };
 
 /// The choice of the cheapest setting for an error.
@@ -27,6 +37,11 @@ class SettingSearch {
   double expected(const AccuracySetting& setting, const KnownErrors& known) const;
   /// What dispersion does to direct waves.
   double dispersion(const AccuracySetting& setting) const;
+  /// What explains the errors of the two best of the runs, error^2 = (k D)^2 + (r h^p)^2 in cells of h; of
+  /// one run as dispersion alone, as far as no wave is worse off than the slowest one that travels as long as
+  /// the traces last: cells that are too large by that guess are found out when they are run, those that are
+  /// too small never.
+  KnownErrors explained(std::vector<SettingRun> runs, double rest_order) const;
   /// Its cost: cells times steps, times what its scheme takes for them against order 5.
   double cost(const AccuracySetting& setting) const;
   /// The cheapest of all orders from 3 on, both orders in time, Courant numbers that may pay and cells of any

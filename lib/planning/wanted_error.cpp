@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "planning/plan.hpp"
@@ -16,8 +17,13 @@ namespace {
 /// What is aimed at, of what is wanted: the error is known once the setting has run, and a second run costs
 /// more than cells that are a little smaller.
 constexpr double aim = 0.85;
-/// So often is a setting chosen anew by runs in larger cells, and run again in smaller ones.
-constexpr int most_choices = 4, most_runs = 4;
+/// So often is a setting run and another one chosen; most of these runs are far cheaper than the last.
+constexpr int most_runs = 8;
+/// An error above this no longer falls with a power of the cells: waves arrive a twentieth of a period late.
+constexpr double all_wrong = 0.3;
+/// What is known in some cells is not taken further than to cells as much smaller as it was measured in
+/// larger ones; beyond, the same scheme in the next size tells more, and its larger cells were run already.
+constexpr double seen = 2.25, step_down = 1.5;
 /// Edges that leave less than this of what is wanted are wide enough; so often are they doubled.
 constexpr double edge_share = 0.3;
 constexpr int most_doublings = 3;
@@ -41,9 +47,14 @@ class Search {
       const auto setting = chosen();
       if (!setting) break;
       auto measured = measured_error(runs_, *setting);
-      learn(measured);
       const bool better = !best_ || !(measured.error.whole >= best_->error.whole);
+      // Errors of traces that have no wave right do not tell how they fall.
+      const bool tells = measured.by_cells <= all_wrong;
+      misled_ = !better || !tells;
+      if (tells) learn(measured);
       if (better) best_ = std::move(measured);
+      known_.largest_m = best_->setting.spacing_m;
+      all_run_.push_back(*setting);
       if (best_->error.whole <= wanted_) break;
       say_(name_of(*setting, runs_.scene()) + ": measured error " + shown(100 * best_->error.whole, 2) +
            " %, wanted " + shown(100 * wanted_, 2) + " %; smaller cells are next");
@@ -87,19 +98,32 @@ class Search {
     }
     return true;
   }
-  /// The cheapest by what is known, after runs in larger cells have confirmed it.
+  /// The cheapest by what is known.
   std::optional<AccuracySetting> chosen() {
-    std::optional<AccuracySetting> setting;
-    for (int n = 0; n < most_choices; ++n) {
+    const auto cheapest = [&]() -> std::optional<AccuracySetting> {
       reason_.clear();
-      const auto next = settings_.cheapest(aim * wanted_, known_, zone_);
-      if (!next || (best_ && settings_.expected(*next, known_) >= best_->error.whole)) return setting;
-      setting = with_possible_cells(*next);
-      reason_.clear();
-      if (!look(*setting)) return setting;
-      if (settings_.expected(*setting, known_) <= wanted_ && setting->zone_cells == zone_) break;
-    }
-    return setting;
+      auto next = settings_.cheapest(aim * wanted_, known_, zone_);
+      const bool unknown = best_ && (misled_ || !next || next->spacing_m * seen < best_->setting.spacing_m);
+      if (unknown) next = smaller_cells();
+      if (!next || (best_ && !unknown && settings_.expected(*next, known_) >= best_->error.whole))
+        return std::nullopt;
+      return with_possible_cells(*next);
+    };
+    const auto setting = cheapest();
+    return setting && widens_edges(*setting) ? cheapest() : setting;
+  }
+  /// The best scheme so far, in cells as much smaller as those that its error is measured in are larger; a
+  /// size that was no better is passed by.
+  std::optional<AccuracySetting> smaller_cells() {
+    auto setting = best_->setting;
+    const auto was_run = [&](const AccuracySetting& one) {
+      return one.order == setting.order && one.time_order == setting.time_order && one.cfl == setting.cfl &&
+             std::abs(std::log(one.spacing_m / setting.spacing_m)) < std::log(step_down) / 2;
+    };
+    do setting.spacing_m /= step_down;
+    while (std::any_of(all_run_.begin(), all_run_.end(), was_run));
+    setting.zone_cells = zone_;
+    return fits(setting) ? std::optional(setting) : std::nullopt;
   }
   /// In cells that the scene holds.
   AccuracySetting with_possible_cells(AccuracySetting setting) const {
@@ -115,25 +139,15 @@ class Search {
     setting.spacing_m = own_m;
     return setting;
   }
-  /// Runs in larger cells, and what they tell. False where the scene holds none.
-  bool look(const AccuracySetting& setting) {
-    const auto others = other_sizes(runs_, setting);
-    if (others.size() < 2 || others.front().spacing_m < setting.spacing_m) return false;
-    const auto &near = others[0], &far = others[1];
-    note_time(far);
-    widen_edges(far, setting);
-    if (zone_ != setting.zone_cells) return true;
-    note_time(near);
-    remember(near, far, gather_error(runs_.run(far).observed, runs_.run(near).observed).whole, 2);
-    return true;
-  }
   void note_time(const AccuracySetting& setting) {
     seconds_per_cost_ = runs_.run(setting).seconds / settings_.cost(setting);
   }
-  /// Edges twice as wide as long as that changes much of what is wanted.
-  void widen_edges(const AccuracySetting& far, const AccuracySetting& setting) {
-    if (runs_.scene().numerics.zone_cells > 0 || edges_seen_) return;
-    auto wide = far;
+  /// Edges twice as wide as long as that changes much of what is wanted, in larger cells. True where they are
+  /// wider now.
+  bool widens_edges(const AccuracySetting& setting) {
+    if (runs_.scene().numerics.zone_cells > 0 || edges_seen_) return false;
+    edges_seen_ = true;
+    auto wide = other_sizes(runs_, setting).back();
     int zone = runs_.zone_of(setting);
     for (int n = 0; n < most_doublings; ++n) {
       const auto change = change_by_edges(runs_, wide);
@@ -143,24 +157,14 @@ class Search {
       zone *= 2;
       zone_ = zone;
     }
-    edges_seen_ = true;
-  }
-  /// By how much traces in cells of two sizes differ: of that dispersion of the direct waves makes what is
-  /// derived, unless less is found, and the rest is of that order.
-  void remember(const AccuracySetting& near, const AccuracySetting& far, double apart, double order) {
-    const double derived = std::abs(settings_.dispersion(far) - settings_.dispersion(near));
-    known_.dispersion = derived > apart ? apart / derived : 1;
-    const double rest = std::sqrt(std::max(0., apart * apart - std::pow(known_.dispersion * derived, 2)));
-    known_.rest = rest / (std::pow(far.spacing_m / near.spacing_m, order) - 1);
-    known_.rest_m = near.spacing_m;
-    known_.rest_order = order;
+    return zone_ > 0;
   }
   void learn(const MeasuredError& measured) {
-    auto other = measured.setting;
-    other.spacing_m = measured.others_m.front();
-    if (other.spacing_m > measured.setting.spacing_m)
-      remember(measured.setting, other, measured.nearest_apart, measured.order);
     note_time(measured.setting);
+    // Traces that do not hang on the cells tell nothing of them.
+    if (!(measured.by_cells > 0)) return;
+    tried_.push_back({measured.setting, measured.by_cells});
+    known_ = settings_.explained(tried_, measured.order);
   }
 
   SceneRuns<D>& runs_;
@@ -168,6 +172,9 @@ class Search {
   SearchLimits limits_;
   const std::function<void(const std::string&)>& say_;
   KnownErrors known_;
+  std::vector<SettingRun> tried_;
+  std::vector<AccuracySetting> all_run_;
+  bool misled_ = false;  // by what is known, or nothing is known yet
   SettingSearch<D> settings_;
   int zone_ = 0;  // of edges, cells; 0: as they are
   bool edges_seen_ = false;
