@@ -52,8 +52,9 @@ class Search {
       const bool tells = measured.by_cells <= all_wrong;
       misled_ = !better || !tells;
       if (tells) learn(measured);
+      widen_edges(measured);
       if (better) best_ = std::move(measured);
-      known_.largest_m = best_->setting.spacing_m;
+      if (best_->by_cells > wanted_) known_.largest_m = best_->setting.spacing_m;
       all_run_.push_back(*setting);
       if (best_->error.whole <= wanted_) break;
       say_(name_of(*setting, runs_.scene()) + ": measured error " + shown(100 * best_->error.whole, 2) +
@@ -102,6 +103,11 @@ class Search {
   std::optional<AccuracySetting> chosen() {
     const auto cheapest = [&]() -> std::optional<AccuracySetting> {
       reason_.clear();
+      if (best_ && edges_alone_) {
+        auto wider = best_->setting;
+        wider.zone_cells = zone_;
+        return fits(wider) ? std::optional(wider) : std::nullopt;
+      }
       auto next = settings_.cheapest(aim * wanted_, known_, zone_);
       const bool unknown = best_ && (misled_ || !next || next->spacing_m * seen < best_->setting.spacing_m);
       if (unknown) next = smaller_cells();
@@ -159,6 +165,14 @@ class Search {
     }
     return zone_ > 0;
   }
+  /// The edges of the next setting, in smaller cells narrower, are twice as wide where that matters.
+  void widen_edges(const MeasuredError& measured) {
+    edges_alone_ = false;
+    const bool matters = measured.by_edges > edge_share * wanted_;
+    if (runs_.scene().numerics.zone_cells > 0 || !matters) return;
+    zone_ = std::max(zone_, 2 * runs_.zone_of(measured.setting));
+    edges_alone_ = measured.by_cells <= aim * wanted_;
+  }
   void learn(const MeasuredError& measured) {
     note_time(measured.setting);
     // Traces that do not hang on the cells tell nothing of them.
@@ -178,6 +192,7 @@ class Search {
   SettingSearch<D> settings_;
   int zone_ = 0;  // of edges, cells; 0: as they are
   bool edges_seen_ = false;
+  bool edges_alone_ = false;  // keep the error above what is wanted
   double seconds_per_cost_ = 0;
   std::optional<MeasuredError> best_;
   std::string reason_;
