@@ -53,12 +53,13 @@ class Search {
       misled_ = !better || !tells;
       if (tells) learn(measured);
       widen_edges(measured);
-      if (better) best_ = std::move(measured);
-      if (best_->by_cells > wanted_) known_.largest_m = best_->setting.spacing_m;
       all_run_.push_back(*setting);
-      if (best_->error.whole <= wanted_) break;
-      say_(name_of(*setting, runs_.scene()) + ": measured error " + shown(100 * best_->error.whole, 2) +
-           " %, wanted " + shown(100 * wanted_, 2) + " %; smaller cells are next");
+      const double found = measured.error.whole;
+      if (better) best_ = std::move(measured);
+      if (found <= wanted_) break;
+      if (best_->by_cells > wanted_) known_.largest_m = best_->setting.spacing_m;
+      say_(name_of(*setting, runs_.scene()) + ": measured error " + shown(100 * found, 2) + " %, wanted " +
+           shown(100 * wanted_, 2) + " %; smaller cells are next");
     }
     // What the user set is better than nothing.
     if (!best_) best_ = measured_error(runs_, setting_of(runs_.scene()));
