@@ -107,6 +107,12 @@ std::string joined(const std::vector<std::string>& parts, const std::string& las
   return all;
 }
 
+std::string joined_by(const std::vector<std::string>& parts, std::string_view between) {
+  std::string all;
+  for (std::size_t n = 0; n < parts.size(); ++n) (n == 0 ? all : all += between) += parts[n];
+  return all;
+}
+
 std::vector<double> parse_numbers(std::string_view text, char separator) {
   const std::string notation = std::string("numbers with '") + separator + "' between them";
   std::vector<double> numbers;

@@ -22,6 +22,8 @@ std::vector<double> parse_numbers(std::string_view text, char separator);
 std::vector<std::string> split(std::string_view text, char separator);
 /// "vx, vz, p"; `last` stands before the last one: "vx, vz or p".
 std::string joined(const std::vector<std::string>& parts, const std::string& last = ", ");
+/// The parts with `between` between them: the inverse of split().
+std::string joined_by(const std::vector<std::string>& parts, std::string_view between);
 
 /// "X,Z" or "X,Y,Z", in metres.
 template <int D>

@@ -19,12 +19,6 @@ int int_of(const std::string& text) {
   return int(value);
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 }  // namespace
 
 bool truth_of(const std::string& text) {
@@ -93,7 +87,7 @@ void Options::add(const std::string& name, std::vector<std::string>& to, const s
                   const std::string& help) {
   auto& option = declare(name, placeholder, help);
   option.many = true;
-  option.shown_default = joined(to, " ");
+  option.shown_default = joined_by(to, " ");
   option.store = [&to](const auto& values) { to = values; };
 }
 
@@ -106,13 +100,13 @@ void Options::add_choice(const std::string& name, std::string& to, std::vector<s
                          const std::string& help) {
   // A list that is wider than a line stands in the help instead.
   constexpr std::size_t widest = 60;
-  const auto list = joined(choices, "|");
+  const auto list = joined_by(choices, "|");
   const bool fits = list.size() <= widest;
-  auto& option = declare(name, fits ? list : "NAME", fits ? help : help + ": " + joined(choices, ", "));
+  auto& option = declare(name, fits ? list : "NAME", fits ? help : help + ": " + joined(choices));
   option.shown_default = to;
   option.store = [&to, choices = std::move(choices)](const auto& values) {
     if (std::find(choices.begin(), choices.end(), values.back()) == choices.end()) {
-      throw Error("found '" + values.back() + "', expected one of " + joined(choices, ", "),
+      throw Error("found '" + values.back() + "', expected one of " + joined(choices),
                   ErrorKind::usage);
     }
     to = values.back();

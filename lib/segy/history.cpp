@@ -9,26 +9,11 @@ namespace slipwave::segy {
 namespace {
 
 constexpr std::string_view stanza_name = "((slipwave: history";
-constexpr std::size_t prefix = 4;  // "C 1 "
 constexpr std::size_t kept_columns = text_columns - 1;
 
 std::string trimmed(std::string_view line) {
   const auto end = line.find_last_not_of(std::string_view(" \0", 2));
   return std::string(line.substr(0, end == std::string_view::npos ? 0 : end + 1));
-}
-
-/// The lines of 80 columns of a textual header.
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0; at + text_columns <= text.size(); at += text_columns)
-    lines.emplace_back(text.substr(at, text_columns));
-  return lines;
-}
-
-std::string joined(const std::vector<std::string>& commands) {
-  std::string text;
-  for (const auto& command : commands) text += (text.empty() ? "" : "\n") + command;
-  return text;
 }
 
 History history_in_stanza(const std::vector<ExtendedText>& extended) {
@@ -48,7 +33,7 @@ History history_in_stanza(const std::vector<ExtendedText>& extended) {
       goes_on = broken;
     }
   }
-  return {joined(commands), true};
+  return {joined_by(commands, "\n"), true};
 }
 
 }  // namespace
@@ -59,7 +44,7 @@ History history_in_text(const std::string& text) {
   std::vector<std::string> commands;
   bool complete = true, in_command = false;
   for (const auto& line : lines_of(text)) {
-    const auto content = trimmed(std::string_view(line).substr(prefix));
+    const auto content = trimmed(std::string_view(line).substr(text_prefix));
     const auto blanks = std::min(content.find_first_not_of(' '), content.size());
     if (content == "..." || (in_command && content == "  ...")) {
       complete = false;
@@ -71,7 +56,7 @@ History history_in_text(const std::string& text) {
       commands.back() += blanks == 1 ? content.substr(1) : " " + content.substr(2);
     }
   }
-  return {joined(commands), complete};
+  return {joined_by(commands, "\n"), complete};
 }
 
 History history_of(const FileHeader& header) {

@@ -5,12 +5,12 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 
 namespace slipwave::segy {
 namespace {
 
-constexpr std::size_t prefix = 4;  // "C 1 "
-constexpr std::size_t width = text_columns - prefix;
+constexpr std::size_t width = text_columns - text_prefix;
 constexpr std::size_t free_lines = text_lines - 2;
 
 std::string numbered(std::size_t index, const std::string& content) {
@@ -98,22 +98,20 @@ void fill(std::vector<std::string>& into, std::size_t from, const std::vector<st
     into[gap + 1 + i] = numbered(gap + 1 + i, lines[lines.size() - kept + i]);
 }
 
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line;
-  return text;
-}
-
-std::vector<std::string> split(std::string_view text) {
+std::vector<std::string> header_lines(std::string_view text) {
   if (text.size() != text_bytes)
     throw Error("a textual header of " + std::to_string(text.size()) + " characters, expected 3200");
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < text_lines; ++i)
-    lines.emplace_back(text.substr(i * text_columns, text_columns));
-  return lines;
+  return lines_of(text);
 }
 
 }  // namespace
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at + text_columns <= text.size(); at += text_columns)
+    lines.emplace_back(text.substr(at, text_columns));
+  return lines;
+}
 
 std::string lay_out_text(std::span<const std::string> entries, int revision) {
   std::vector<std::string> lines;
@@ -128,7 +126,7 @@ std::string lay_out_text(std::span<const std::string> entries, int revision) {
   fill(laid, 0, lines, of_last);
   laid[38] = numbered(38, stamp(revision));
   laid[39] = numbered(39, "END TEXTUAL HEADER");
-  return joined(laid);
+  return joined_by(laid, "");
 }
 
 std::string lay_out_text(std::span<const std::string> entries, std::span<const std::string> always,
@@ -173,7 +171,7 @@ std::string lay_out_text(std::span<const std::string> entries, std::span<const s
 }
 
 std::string with_entry(std::string_view text, const std::string& entry, int revision) {
-  std::vector<std::string> laid = split(text);
+  std::vector<std::string> laid = header_lines(text);
   std::size_t used = free_lines;
   while (used > 0 && content_of(laid[used - 1]).empty()) --used;
   const std::vector<std::string> more = wrapped(entry);
@@ -181,12 +179,12 @@ std::string with_entry(std::string_view text, const std::string& entry, int revi
   for (std::size_t i = used + more.size(); i < free_lines; ++i) laid[i] = numbered(i, "");
   if (may_be_stamped(content_of(laid[38]))) laid[38] = numbered(38, stamp(revision));
   if (may_be_stamped(content_of(laid[39]))) laid[39] = numbered(39, "END TEXTUAL HEADER");
-  return joined(laid);
+  return joined_by(laid, "");
 }
 
 std::vector<std::string> shown_lines(std::string_view text) {
   std::vector<std::string> lines;
-  for (std::string& line : split(text)) {
+  for (std::string& line : header_lines(text)) {
     if (content_of(line).empty()) continue;
     for (char& character : line)
       if (is_blank(character) && character != ' ') character = '.';

@@ -12,6 +12,7 @@ namespace slipwave::segy {
 inline constexpr std::size_t text_lines = 40;
 inline constexpr std::size_t text_columns = 80;
 inline constexpr std::size_t text_bytes = text_lines * text_columns;
+inline constexpr std::size_t text_prefix = 4;  // "C 1 " before what a line says
 
 enum class TextEncoding { ebcdic, ascii };
 
@@ -36,6 +37,9 @@ std::string lay_out_text(std::span<const std::string> lines, int revision);
 /// commands of tools that come after.
 std::string lay_out_text(std::span<const std::string> lines, std::span<const std::string> always,
                          int revision);
+
+/// The lines of 80 columns of a textual header, or of several behind one another.
+std::vector<std::string> lines_of(std::string_view text);
 
 /// `text` (3200 characters of another file) with one more entry after its last line in use, laid out as
 /// lay_out_text does. The other lines stay as they are; C39 and C40 are stamped where they are blank or hold

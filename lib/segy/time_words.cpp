@@ -13,11 +13,6 @@ namespace {
 
 constexpr int first_time = 95, last_time = 113;  // bytes of the words that the time scalar applies to
 constexpr double largest_word = 32767;
-/// Times count to a millionth of a unit, so that 0.0005 s is half a millisecond.
-constexpr double rounding = 1e-6;
-
-bool is_whole(double value) { return std::fabs(value - std::nearbyint(value)) <= rounding; }
-
 bool holds(double value) { return is_whole(value) && std::fabs(value) <= largest_word; }
 
 bool is_other_time(const Field& field) {
@@ -39,6 +34,8 @@ std::optional<TraceWords> in_units_of(TraceWords words, std::int64_t scalar) {
 }
 
 }  // namespace
+
+bool is_whole(double value) { return std::fabs(value - std::nearbyint(value)) <= 1e-6; }
 
 void set_first_sample(TraceWords& words, double start_s, bool has_scalar) {
   const double ms = start_s * 1e3;

@@ -5,6 +5,10 @@
 
 namespace slipwave::segy {
 
+/// Whether a time in units of a word is a whole number of them, to a millionth: 0.0005 s is half a
+/// millisecond and 0.0007 s 700 us, whatever a double makes of them.
+bool is_whole(double value);
+
 /// Sets the time of the first sample (byte 109). With `has_scalar` (since revision 1) the time scalar (byte
 /// 215) becomes the coarsest, from the present one on, that holds it and all other times of bytes 95 to 114
 /// exactly. Throws Error when none does, or the time is not one of whole milliseconds without it.

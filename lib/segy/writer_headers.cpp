@@ -20,9 +20,6 @@ std::string file_kind(const FileFormat& format) {
   return format.su ? "Seismic Unix" : "SEG-Y revision " + std::to_string(format.revision);
 }
 
-/// Counted to the nearest nanosecond's thousandth, so that 0.0007 s is 700 us.
-bool is_whole(double value) { return std::fabs(value - std::nearbyint(value)) <= 1e-6; }
-
 bool has_wide_words(const FileFormat& format) { return !format.su && format.revision >= 2; }
 
 bool fits_interval_word(double interval_s) {
