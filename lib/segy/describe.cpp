@@ -167,6 +167,7 @@ Description describe(const std::string& path, const ReadOptions& options,
     facts.damage = error.what();
   }
   facts.traces = reader.delivered();
+  facts.doubts = reader.doubts();
   facts.shots = static_cast<std::int64_t>(shots.size());
   SquareSum all;
   for (const auto& [component, of_it] : seen) {

@@ -53,6 +53,7 @@ struct Description {
   Range sample;  // finite samples of all components, whatever their units
   double rms = 0;
   std::int64_t not_finite = 0;
+  std::vector<std::string> doubts;    // Reader::doubts()
   std::optional<std::string> damage;  // what stopped the reading before the end ("ends within trace 4: ...")
 };
 

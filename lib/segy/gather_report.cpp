@@ -82,6 +82,7 @@ Report report_of(const Description& facts) {
   }
   report.list("component", components);
   report_positions(report, facts);
+  if (!facts.doubts.empty()) report.texts("doubt", facts.doubts);
   if (facts.not_finite != 0) report.count("samples not finite", facts.not_finite);
   if (!facts.header.su) report.texts("text", shown_lines(facts.header.text));
   return report;

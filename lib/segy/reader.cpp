@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -192,6 +193,7 @@ bool Reader::next(RawTrace& trace) {
         return false;
       }
       ++delivered_;
+      see_doubts(trace);
       return true;
     });
   } catch (const Error& error) {
@@ -199,6 +201,24 @@ bool Reader::next(RawTrace& trace) {
     damage_ = error.what();
     return false;
   }
+}
+
+std::vector<std::string> Reader::doubts() const {
+  std::vector<std::string> sentences;
+  for (const auto& doubt : {interval_doubt_, words_.doubt()})
+    if (!doubt.empty()) sentences.push_back(name() + ": " + doubt);
+  return sentences;
+}
+
+/// Of the first traces; later ones have the same format.
+void Reader::see_doubts(const RawTrace& trace) {
+  constexpr std::int64_t first_traces = 64;
+  if (delivered_ <= first_traces) words_.see(trace.samples, *header_.format, header_.endian);
+  const auto given_us = static_cast<double>(trace.words.get("dt"));
+  if (given_us == 0 || std::fabs(given_us - header_.interval_us) < 1 || !interval_doubt_.empty()) return;
+  interval_doubt_ = "trace " + std::to_string(delivered_) + " says " + shown(given_us * 1e-6) +
+                    " s between samples (byte 117), taken are the " + shown(axis_.interval_s) + " s of " +
+                    (header_.su ? "the first trace" : "the file header (byte 3217)");
 }
 
 void Reader::expect_whole() const {

@@ -10,6 +10,7 @@
 #include "gather/trace.hpp"
 #include "segy/byte_source.hpp"
 #include "segy/file_header.hpp"
+#include "segy/float_words.hpp"
 #include "segy/geometry.hpp"
 #include "segy/words.hpp"
 
@@ -65,6 +66,9 @@ class Reader {
   const std::optional<std::string>& damage() const noexcept { return damage_; }
   /// Throws an Error of damage(), if there is any: after its whole traces have been written.
   void expect_whole() const;
+  /// What headers and samples of the traces so far leave in doubt, a sentence each: sampling intervals that
+  /// contradict the one that is taken, and floating point of another kind.
+  std::vector<std::string> doubts() const;
   /// Traces delivered so far.
   std::int64_t delivered() const noexcept { return delivered_; }
 
@@ -89,6 +93,7 @@ class Reader {
   TraceHeader si_header_of(const TraceWords& words, const std::vector<std::uint8_t>& extensions) const;
   std::int64_t extra_headers_of(const std::optional<ExtensionWords>& extension) const;
   std::int64_t samples_of(const TraceWords& words, const std::optional<ExtensionWords>& extension) const;
+  void see_doubts(const RawTrace& trace);
   bool at_trailer();
   bool at_padding();
   bool read_trace(RawTrace& trace);
@@ -104,6 +109,8 @@ class Reader {
   std::int64_t delivered_ = 0;
   bool to_damage_ = false, blank_headers_ = false;  // those of the first trace
   std::optional<std::string> damage_;
+  std::string interval_doubt_;
+  FloatWords words_;
   RawTrace raw_;
   std::vector<std::uint8_t> bytes_;
 };
