@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "model/well_log.hpp"
 
 namespace slipwave {
 namespace {
@@ -14,9 +15,10 @@ FitChoice as_can_be(FitChoice choice) {
   return choice;
 }
 
-/// Tops that are level beyond their ends.
-std::vector<Layer> endless(std::vector<Layer> layers) {
+/// The layers in cells of that size, tops level beyond their ends.
+std::vector<Layer> layers_in(double spacing_m, std::vector<Layer> layers) {
   for (auto& layer : layers) {
+    if (layer.log) fill_from_log(layer, spacing_m);
     auto shape = layer.top.shape();
     shape.endless = true;
     layer.top = Horizon(std::move(shape));
@@ -40,14 +42,14 @@ Medium<3> marmousi_in(const Geology&, const Grid<3>& grid) { return Medium<3>(gr
 template <int D>
 Fit<D> fit_of(const Geology& geology, const Grid<D>& regular) {
   if (geology.marmousi) return marmousi_fit(geology, regular);
-  return fit_layers(regular, endless(geology.layers), as_can_be(geology.fit));
+  return fit_layers(regular, layers_in(regular.spacing_m, geology.layers), as_can_be(geology.fit));
 }
 
 template <int D>
 Medium<D> medium_of(const Geology& geology, const Grid<D>& regular) {
   const auto fit = fit_of(geology, regular);
   if (geology.marmousi) return marmousi_in(geology, fit.grid);
-  return layered_medium(fit.grid, endless(geology.layers), geology.average, fit.rows);
+  return layered_medium(fit.grid, layers_in(regular.spacing_m, geology.layers), geology.average, fit.rows);
 }
 
 template Fit<2> fit_of(const Geology&, const Grid<2>&);

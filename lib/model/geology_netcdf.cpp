@@ -110,11 +110,66 @@ std::size_t points_of(const std::vector<Layer>& layers) {
   return count;
 }
 
+std::size_t samples_of(const std::vector<Layer>& layers) {
+  std::size_t count = 0;
+  for (const auto& layer : layers)
+    if (layer.log) count += layer.log->depths_m.size();
+  return count;
+}
+
+/// What a log says of rock.
+struct LogColumn {
+  const char *name, *long_name, *units;
+  double Material::*of;
+};
+constexpr LogColumn log_columns[] = {{"layer_log_vp", "P-wave speed of a sample", "m s-1", &Material::vp},
+                                     {"layer_log_vs", "S-wave speed of a sample", "m s-1", &Material::vs},
+                                     {"layer_log_rho", "density of a sample", "kg m-3", &Material::rho}};
+
 void define(NetcdfFile& file, const std::string& name, const std::vector<std::string>& dimensions,
             const std::string& long_name, const std::string& units, Type type = Type::f64) {
   file.define_variable(name, type, dimensions, {false, {}});
   file.put_attribute(name, "long_name", long_name);
   if (!units.empty()) file.put_attribute(name, "units", units);
+}
+
+/// Of layers whose blocks are made of a log.
+void define_logs(NetcdfFile& file, const std::vector<Layer>& layers) {
+  const auto samples = samples_of(layers);
+  if (samples == 0) return;
+  define(file, "layer_log_block", {"layer"}, "thickness of blocks that a log is averaged over; 0: cells",
+         "m");
+  define(file, "layer_log_backus", {"layer"}, "1: averages of flat layers (Backus), with their anisotropy",
+         "", Type::u8);
+  file.define_dimension("layer_log_sample", samples);
+  const std::vector<std::string> along = {"layer_log_sample"};
+  define(file, "layer_log_of", along, "layer that the sample of a log is of, from 0", "", Type::i32);
+  define(file, "layer_log_depth", along, "depth of a sample", "m");
+  for (const auto& column : log_columns) define(file, column.name, along, column.long_name, column.units);
+}
+
+void put_logs(NetcdfFile& file, const std::vector<Layer>& layers) {
+  if (samples_of(layers) == 0) return;
+  std::vector<double> blocks, backus, depths;
+  std::vector<int> owner;
+  for (std::size_t n = 0; n < layers.size(); ++n) {
+    const auto log = layers[n].log.value_or(LayerLog());
+    blocks.push_back(log.block_m.value_or(0));
+    backus.push_back(log.layered);
+    depths.insert(depths.end(), log.depths_m.begin(), log.depths_m.end());
+    owner.insert(owner.end(), log.depths_m.size(), int(n));
+  }
+  file.put("layer_log_block", blocks.data());
+  file.put("layer_log_backus", backus.data());
+  file.put("layer_log_of", owner.data());
+  file.put("layer_log_depth", depths.data());
+  for (const auto& column : log_columns) {
+    std::vector<double> values;
+    for (const auto& layer : layers)
+      if (layer.log)
+        for (const auto& material : layer.log->materials) values.push_back(material.*column.of);
+    file.put(column.name, values.data());
+  }
 }
 
 void define_layers(NetcdfFile& file, const std::vector<Layer>& layers) {
@@ -128,6 +183,7 @@ void define_layers(NetcdfFile& file, const std::vector<Layer>& layers) {
   for (const auto property : given_properties(layers))
     define(file, variable_of(property), {"layer"}, row_of(property).long_name + "; NaN: not given",
            row_of(property).units);
+  define_logs(file, layers);
   if (any_smooth(layers))
     define(file, "layer_smooth", {"layer"}, "1: the top has continuous slopes between points or nodes", "",
            Type::u8);
@@ -162,6 +218,7 @@ void put_layers(NetcdfFile& file, const std::vector<Layer>& layers) {
       put(column.name, [&](const Layer& layer) { return value_of(column, layer); });
   for (const auto property : given_properties(layers))
     put(variable_of(property), [&](const Layer& layer) { return given(layer, property); });
+  put_logs(file, layers);
   if (any_smooth(layers)) put("layer_smooth", [](const Layer& layer) { return layer.top.shape().smooth; });
   std::vector<int> owner;
   std::vector<double> x, depth;
@@ -198,6 +255,14 @@ std::vector<double> numbers(const NetcdfFile& file, const std::string& name, std
   return values;
 }
 
+/// The layer that a value of a table of several is of.
+std::size_t layer_in(const NetcdfFile& file, const std::string& variable, int owner, std::size_t layers) {
+  if (owner < 0 || std::size_t(owner) >= layers)
+    refuse(file, variable,
+           "found " + std::to_string(owner) + ", expected 0 to " + std::to_string(layers - 1));
+  return std::size_t(owner);
+}
+
 /// Curves and grids of tops.
 void read_shapes(const NetcdfFile& file, std::vector<HorizonShape>& shapes) {
   if (file.has_variable("layer_smooth")) {
@@ -209,10 +274,7 @@ void read_shapes(const NetcdfFile& file, std::vector<HorizonShape>& shapes) {
     const auto x = numbers(file, "layer_point_x", owner.size());
     const auto depth = numbers(file, "layer_point_depth", owner.size());
     for (std::size_t i = 0; i < owner.size(); ++i) {
-      if (owner[i] < 0 || std::size_t(owner[i]) >= shapes.size())
-        refuse(file, "layer_point_of",
-               "found " + std::to_string(owner[i]) + ", expected 0 to " + std::to_string(shapes.size() - 1));
-      auto& points = shapes[std::size_t(owner[i])].points_m;
+      auto& points = shapes[layer_in(file, "layer_point_of", owner[i], shapes.size())].points_m;
       if (!points.empty() && !(x[i] > points.back()[0]))
         refuse(file, "layer_point_x",
                "found " + shown(x[i]) + " after " + shown(points.back()[0]) +
@@ -233,6 +295,51 @@ void read_shapes(const NetcdfFile& file, std::vector<HorizonShape>& shapes) {
   }
 }
 
+void check_log(const NetcdfFile& file, const LayerLog& log) {
+  const auto& depths = log.depths_m;
+  for (std::size_t n = 1; n < depths.size(); ++n)
+    if (!(depths[n] > depths[n - 1]))
+      refuse(file, "layer_log_depth",
+             "found " + shown(depths[n]) + " after " + shown(depths[n - 1]) + ", expected depths to ascend");
+  for (const auto& rock : log.materials) {
+    for (const auto& [property, value] :
+         {std::pair(Property::vp, rock.vp), {Property::vs, rock.vs}, {Property::rho, rock.rho}})
+      if (!(value >= 0) || (property != Property::vs && value == 0))
+        refuse(file, "layer_log_" + row_of(property).name,
+               "found " + shown(value) + ", expected a speed or density");
+    if ((rock.vs == 0) != (log.materials.front().vs == 0))
+      refuse(file, "layer_log_vs", "found fluid beside rock, expected one of them");
+  }
+}
+
+void read_logs(const NetcdfFile& file, std::vector<Layer>& layers) {
+  if (!file.has_variable("layer_log_of")) return;
+  const auto blocks = numbers(file, "layer_log_block", layers.size());
+  const auto backus = numbers(file, "layer_log_backus", layers.size());
+  const auto owner = file.get<int>("layer_log_of");
+  const auto depths = numbers(file, "layer_log_depth", owner.size());
+  std::vector<Material> rocks(owner.size());
+  for (const auto& column : log_columns) {
+    const auto values = numbers(file, column.name, owner.size());
+    for (std::size_t i = 0; i < values.size(); ++i) rocks[i].*column.of = values[i];
+  }
+  for (std::size_t i = 0; i < owner.size(); ++i) {
+    const auto n = layer_in(file, "layer_log_of", owner[i], layers.size());
+    auto& log = layers[n].log;
+    if (!log) {
+      if (!(blocks[n] >= 0))
+        refuse(file, "layer_log_block", "found " + shown(blocks[n]) + ", expected it not below 0");
+      log.emplace();
+      if (blocks[n] > 0) log->block_m = blocks[n];
+      log->layered = backus[n] != 0;
+    }
+    log->depths_m.push_back(depths[i]);
+    log->materials.push_back(rocks[i]);
+  }
+  for (const auto& layer : layers)
+    if (layer.log) check_log(file, *layer.log);
+}
+
 std::vector<Layer> read_layers(const NetcdfFile& file) {
   const auto tops = split(*file.text_attribute(container, tops_name), '\n');
   std::vector<Layer> layers(tops.size());
@@ -245,6 +352,7 @@ std::vector<Layer> read_layers(const NetcdfFile& file) {
       (column.of_top ? shapes[n].*column.of_top : layers[n].*column.rock.*column.of_rock) = values[n];
   }
   read_shapes(file, shapes);
+  read_logs(file, layers);
   for (const auto property : all_properties()) {
     const auto& row = row_of(property);
     if (!row.if_absent || row.computed || !file.has_variable(variable_of(property))) continue;

@@ -549,6 +549,16 @@ template <int D>
 std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers) {
   std::vector<std::string> sentences;
   const std::int64_t lines = different_lines(grid, layers);
+  const auto reaches_into = [&](const Layer& layer) {
+    for (std::int64_t line = 0; line < lines; ++line)
+      for (std::int64_t n = 0; n < grid.shape[0]; ++n)
+        if (layer.top.at(grid.centre(0, n), y_of(grid, line)) < grid.end(D - 1)) return true;
+    return false;
+  };
+  for (const auto& layer : layers)
+    if (!reaches_into(layer))
+      sentences.push_back("the layer at " + layer.top.name() + " begins below the model, which ends at " +
+                          shown(grid.end(D - 1)) + " m");
   for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
     constexpr double far = std::numeric_limits<double>::infinity();
     Point<2> from{far, far}, to{-far, -far};  // x and y of the columns where it is cut off

@@ -27,6 +27,14 @@ struct LayerBlock {
   Material material;
 };
 
+/// Samples of a log from which blocks of a layer are made, whatever the cells (fill_from_log()).
+struct LayerLog {
+  std::vector<double> depths_m;     // ascending
+  std::vector<Material> materials;  // at them: all fluid or all solid
+  std::optional<double> block_m;    // thickness of blocks; none: of cells
+  bool layered = false;             // means of flat layers (Backus 1962), with their anisotropy
+};
+
 /// Everything below a top, down to the next layer. Properties may change linearly with depth below the top.
 struct Layer {
   Horizon top;
@@ -34,6 +42,7 @@ struct Layer {
   Material gradient;  // what vp and vs (1/s) and rho (kg/m4) gain a metre below it; 0 by default
   std::vector<std::pair<Property, double>> others;  // of its other properties, all over the layer
   std::vector<LayerBlock> profile;  // in place of material and gradient, as of a log; the last continues
+  std::optional<LayerLog> log;      // what the profile is made of
 
   Layer() = default;
   Layer(const Horizon& top, const Material& material, const Material& gradient = {})
@@ -93,7 +102,8 @@ template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers,
                          Average average = Average::isotropic, const std::vector<std::int64_t>& rows = {});
 
-/// Where a sine or a curve cuts off a layer in a part of the model: a sentence for each layer that ends so.
+/// Where a sine or a curve cuts off a layer in a part of the model, and layers that lie below all of it: a
+/// sentence for each.
 template <int D>
 std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers);
 

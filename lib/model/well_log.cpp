@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "io/input_bytes.hpp"
 #include "io/table.hpp"
 #include "model/relations.hpp"
@@ -24,6 +25,8 @@ struct Curves {
   std::vector<std::vector<double>> rows;
   std::vector<std::string> places;  // of rows: "line 17"
   double null = -999.25;
+  bool wrapped = true;                                // a row may take several lines
+  std::vector<std::pair<ColumnHeader, double>> ends;  // STRT and STOP of LAS
 };
 
 /// A text line by line.
@@ -68,9 +71,10 @@ LasItem las_item(std::string_view line) {
   return item;
 }
 
-/// Numbers of the section ~A, however lines are wrapped.
+/// Numbers of the section ~A. A row may take several lines, and ends where a line does.
 void take_las_numbers(std::string_view line, const std::string& place, Curves& curves,
                       std::vector<double>& row) {
+  const auto expected = ", expected " + std::to_string(curves.headers.size()) + ", as many as curves";
   while (!line.empty()) {
     const auto end = line.find_first_of(" \t,");
     const std::string word(line.substr(0, end));
@@ -79,15 +83,22 @@ void take_las_numbers(std::string_view line, const std::string& place, Curves& c
     if (row.empty()) curves.places.push_back(place);
     row.push_back(word == "NaN" || word == "nan" ? missing : parse_number(word));
     if (row.size() < curves.headers.size()) continue;
+    if (!line.empty()) throw Error("found more values in a row" + expected);
     curves.rows.push_back(std::move(row));
     row.clear();
   }
+  if (!row.empty() && !curves.wrapped)
+    throw Error("found " + std::to_string(row.size()) + (row.size() == 1 ? " value" : " values") + expected +
+                " (WRAP is NO)");
 }
 
 void take_las_item(char section, const LasItem& item, Curves& curves) {
   const auto& name = item.header.name;
   if (section == 'C') curves.headers.push_back(item.header);
   if (section == 'W' && name == "null" && !item.value.empty()) curves.null = parse_number(item.value);
+  if (section == 'W' && (name == "strt" || name == "stop") && is_number(item.value))
+    curves.ends.emplace_back(item.header, parse_number(item.value));
+  if (section == 'V' && name == "wrap") curves.wrapped = lower(item.value) != "no";
   if (section == 'V' && name == "vers" && item.value.rfind("1.2", 0) != 0 && item.value.rfind('2', 0) != 0)
     throw Error("found LAS version '" + excerpt(item.value) + "', expected 1.2 or 2.0");
 }
@@ -164,10 +175,16 @@ struct Found {
 std::optional<Found> find_curve(const Curves& curves, const Sought& sought, const InputUnits& units,
                                 std::string& said) {
   const auto find = [&](const std::vector<std::string>& names) -> std::optional<std::size_t> {
-    for (const auto& name : names)
-      for (std::size_t n = 0; n < curves.headers.size(); ++n)
-        if (curves.headers[n].name == name) return n;
-    return {};
+    std::optional<std::size_t> found;
+    for (const auto& name : names) {
+      for (std::size_t n = 0; n < curves.headers.size(); ++n) {
+        if (curves.headers[n].name != name) continue;
+        if (found) throw Error("found curve " + name + " twice, expected it once");
+        found = n;
+      }
+      if (found) break;
+    }
+    return found;
   };
   auto column = find(sought.names);
   const bool is_sonic = !column;
@@ -199,8 +216,25 @@ void refuse_missing(const std::string& name, const Curves& curves, const Sought&
               ", expected one called " + joined(wanted, " or ") + remedy);
 }
 
+/// STRT and STOP say the numbers of the depth curve: in another unit one of both is wrong.
+void check_ends(const Curves& curves, const Found& depth) {
+  if (curves.rows.empty()) return;
+  const auto& header = curves.headers[depth.column];
+  for (const auto& [end, value] : curves.ends) {
+    if (value == 0 || end.unit.empty() || header.unit.empty()) continue;
+    const auto said = in_place("~Well: " + end.name, [&] { return end.conversion("m"); });
+    if (said(value) == depth.conversion(value)) continue;
+    for (const auto& row : {curves.rows.front(), curves.rows.back()})
+      if (row[depth.column] == value)
+        throw Error("found " + shown(value) + " " + excerpt(end.unit) + " in ~Well and " + shown(value) +
+                    " " + excerpt(header.unit) + " in the curve " + header.name +
+                    ", expected one unit of depths");
+  }
+}
+
 /// Samples of the curves, in SI; NaN of those that are to be computed.
-void take_samples(const Curves& curves, const std::array<std::optional<Found>, 4>& found, WellLog& log) {
+void take_samples(const Curves& curves, const std::array<std::optional<Found>, 4>& found,
+                  const MediumLimits& limits, WellLog& log) {
   for (std::size_t n = 0; n < curves.rows.size(); ++n) {
     std::array<double, 4> values{};
     bool whole = true;
@@ -222,6 +256,10 @@ void take_samples(const Curves& curves, const std::array<std::optional<Found>, 4
         refuse("found " + std::string(sought_curves()[std::size_t(k)].what) + " " +
                shown(values[std::size_t(k)], 6) + ", expected it " + (positive ? "above 0" : "not below 0") +
                "; missing values are " + shown(curves.null) + " (NULL), NaN or nothing");
+    if (found[1] && found[2] && !limits.allow_auxetic && values[2] > values[1] / std::sqrt(2.0))
+      refuse("found vs " + shown(values[2], 6) + " with vp " + shown(values[1], 6) +
+             " m/s, expected vs at most vp/sqrt(2) or a missing value, " + shown(curves.null) +
+             " (--allow-auxetic takes it)");
     if (!log.depths_m.empty() && values[0] == log.depths_m.back())
       refuse("found depth " + shown(values[0]) + " m twice, expected each once");
     log.depths_m.push_back(values[0]);
@@ -234,6 +272,10 @@ void take_samples(const Curves& curves, const std::array<std::optional<Found>, 4
     std::reverse(log.depths_m.begin(), log.depths_m.end());
     std::reverse(log.materials.begin(), log.materials.end());
   }
+  if (log.depths_m.back() <= 0)
+    throw Error(log.name + ": found depths from " + shown(log.depths_m.front()) + " to " +
+                shown(log.depths_m.back()) +
+                " m, expected them to count downwards from the surface; heights change sign");
   for (std::size_t n = 1; n < log.depths_m.size(); ++n)
     if (!(log.depths_m[n] > log.depths_m[n - 1]))
       throw Error(log.name + ": found a depth of " + shown(log.depths_m[n]) + " m beside " +
@@ -267,6 +309,14 @@ Material layered(const MaterialMean& mean) {
   return material;
 }
 
+/// The sample from `first` on that is nearest to a depth.
+std::size_t nearest_sample(const std::vector<double>& depths_m, std::size_t first, double depth_m) {
+  const auto next = std::lower_bound(depths_m.begin() + std::ptrdiff_t(first), depths_m.end(), depth_m);
+  const auto n = std::size_t(next - depths_m.begin());
+  if (n == depths_m.size()) return n - 1;
+  return n > first && depth_m - depths_m[n - 1] <= depths_m[n] - depth_m ? n - 1 : n;
+}
+
 }  // namespace
 
 WellLog read_well_log(const std::string& path, const LogChoice& choice) {
@@ -287,47 +337,57 @@ WellLog read_well_log(const std::string& path, const LogChoice& choice) {
     if (!found[k] && !computed) refuse_missing(log.name, curves, sought);
     if (computed) log.curves += k == 2 ? ", vs by Castagna's line" : ", rho by Gardner's relation";
   }
-  take_samples(curves, found, log);
+  in_place(log.name, [&] { check_ends(curves, *found[0]); });
+  take_samples(curves, found, choice.limits, log);
   complete(log, choice);
   return log;
 }
 
-Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const LogChoice& choice) {
-  const auto& depths = log.depths_m;
-  const double thickness = choice.block_m.value_or(spacing_m);
-  if (!(thickness >= spacing_m * (1 - 1e-9)))
-    throw Error(
-        "found blocks of " + shown(thickness) + " m, expected at least a cell, " + shown(spacing_m) + " m",
-        ErrorKind::usage);
+void fill_from_log(Layer& layer, double spacing_m) {
+  const auto& [depths, materials, block_m, flat_layers] = *layer.log;
+  const double thickness = std::max(block_m.value_or(spacing_m), spacing_m);
   const double top = std::round(depths.front() / spacing_m) * spacing_m;
   const auto blocks =
       std::max<std::int64_t>(1, std::int64_t(std::ceil((depths.back() - top) / thickness - 0.5)));
-  Layer layer;
+  layer.profile.clear();
   std::size_t first = 0;
   for (std::int64_t block = 0; block < blocks; ++block) {
-    const double from = top + double(block) * thickness, to = from + thickness, middle = (from + to) / 2;
+    const double from = top + double(block) * thickness, to = from + thickness;
     while (first + 1 < depths.size() && (depths[first] + depths[first + 1]) / 2 <= from) ++first;
-    std::size_t nearest = first;
-    while (nearest + 1 < depths.size() &&
-           std::abs(depths[nearest + 1] - middle) < std::abs(depths[nearest] - middle))
-      ++nearest;
-    if (std::abs(depths[nearest] - middle) > thickness)
-      throw Error(log.name + ": found no values of all curves from " + shown(from, 8) + " to " +
-                  shown(to, 8) + " m, expected some in each block of " + shown(thickness) +
-                  " m: fill the gap or cut the log there");
-    MaterialMean mean(log.materials[nearest]);
+    MaterialMean mean(materials[nearest_sample(depths, first, (from + to) / 2)]);
     for (std::size_t n = first; n < depths.size(); ++n) {
       const double upper = n == 0 ? from : std::max(from, (depths[n - 1] + depths[n]) / 2);
       const double lower = n + 1 == depths.size() ? to : std::min(to, (depths[n] + depths[n + 1]) / 2);
       if (upper >= to) break;
-      if (lower > upper && !mean.add(log.materials[n], lower - upper))
-        throw Error(log.name + ": found fluid beside rock (vs 0) at " + shown(depths[n]) +
-                    " m, expected a log of one of them; give water as a --layer");
+      if (lower > upper) mean.add(materials[n], lower - upper);
     }
-    layer.profile.push_back({double(block + 1) * thickness, choice.layered ? layered(mean) : mean.mean()});
+    layer.profile.push_back({double(block + 1) * thickness, flat_layers ? layered(mean) : mean.mean()});
   }
   layer.top = Horizon(top);
   layer.material = layer.profile.front().material;
+}
+
+Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const LogChoice& choice) {
+  if (choice.block_m && !(*choice.block_m >= spacing_m * (1 - 1e-9)))
+    throw Error("found blocks of " + shown(*choice.block_m) + " m, expected at least a cell, " +
+                    shown(spacing_m) + " m",
+                ErrorKind::usage);
+  for (std::size_t n = 1; n < log.depths_m.size(); ++n)
+    if ((log.materials[n].vs == 0) != (log.materials[0].vs == 0))
+      throw Error(log.name + ": found fluid beside rock (vs 0) at " + shown(log.depths_m[n]) +
+                  " m, expected a log of one of them; give water as a --layer");
+  Layer layer;
+  layer.log = {log.depths_m, log.materials, choice.block_m, choice.layered};
+  fill_from_log(layer, spacing_m);
+  double from = layer.top.depth_m();
+  for (const auto& block : layer.profile) {
+    const double to = layer.top.depth_m() + block.to_m, middle = (from + to) / 2;
+    if (std::abs(log.depths_m[nearest_sample(log.depths_m, 0, middle)] - middle) > to - from)
+      throw Error(log.name + ": found no values of all curves from " + shown(from, 8) + " to " +
+                  shown(to, 8) + " m, expected some in each block of " + shown(to - from) +
+                  " m: fill the gap or cut the log there");
+    from = to;
+  }
   if (!choice.layered) return layer;
   for (const auto property : {Property::epsilon, Property::delta}) layer.others.emplace_back(property, 0);
   if (in_space) layer.others.emplace_back(Property::gamma, 0);

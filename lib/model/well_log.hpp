@@ -7,6 +7,7 @@
 
 #include "model/input_units.hpp"
 #include "model/layers.hpp"
+#include "model/model.hpp"
 
 namespace slipwave {
 
@@ -16,6 +17,7 @@ struct LogChoice {
   bool vs_from_vp = false, rho_from_vp = false;  // Castagna's line, Gardner's relation (model/relations.hpp)
   double fluid_vp = 1500;                        // with vs_from_vp: fluid where vp is at most this
   std::optional<double> block_m;                 // thickness of blocks; none: of cells
+  MediumLimits limits;                           // of samples
   bool layered = false;                          // means of flat layers (Backus 1962), with their anisotropy
 };
 
@@ -34,10 +36,14 @@ struct WellLog {
 /// ambiguous.
 WellLog read_well_log(const std::string& path, const LogChoice& choice);
 
-/// The log as a layer from the face of cells of `spacing_m` nearest to its first sample on. Each block is the
-/// mean over the samples in it, each of which stands for what is nearest to it (MaterialMean); below the last
-/// sample the last block continues. `in_space`: the layer has gamma, too. Throws Error naming the depths of a
-/// block without samples, or where fluid and solid meet, and a usage Error for blocks thinner than cells.
+/// Makes the blocks of a layer from its log (Layer::log): from the face of cells of `spacing_m` nearest to
+/// its first sample on. Each block is at least a cell thick and the mean over the samples in it, each of
+/// which stands for what is nearest to it (MaterialMean); below the last sample the last block continues.
+void fill_from_log(Layer& layer, double spacing_m);
+
+/// The log as a layer, filled for cells of `spacing_m`. `in_space`: the layer has gamma, too. Throws Error
+/// naming the depths of a block without samples, or where fluid and solid meet, and a usage Error for blocks
+/// thinner than cells.
 Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const LogChoice& choice);
 
 /// One line: samples, depths, blocks and what they are made of.

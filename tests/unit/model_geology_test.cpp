@@ -8,6 +8,7 @@
 #include "model/model_in_cells.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/resample.hpp"
+#include "model/well_log.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;
@@ -139,6 +140,60 @@ TEST(CellsOfSize, AreFilledFromTheLayersAtAnySize) {
   const auto found = in_cells_of(model, 7);
   expect_same_cells(found, built<2>(flat, {406, 301}, 7));
   expect_same_cells(in_cells_of(found, 10), built<2>(flat, {410, 310}, 10));
+}
+
+TEST(CellsOfSize, AreFilledFromTheLogItself) {
+  WellLog log;
+  log.name = "well";
+  for (int n = 0; n < 1000; ++n) {
+    log.depths_m.push_back(41 + 0.15 * n);
+    const double bed = std::sin(0.4 * n);
+    log.materials.push_back({3000 + 500 * bed, 1600 + 300 * bed, 2300 + 100 * bed});
+  }
+  for (const bool backus : {false, true}) {
+    const auto geology_in = [&](double spacing_m) {
+      LogChoice choice;
+      choice.layered = backus;
+      return Geology{.maker = Maker::sw_layers,
+                     .layers = {{0, 1500, 0, 1000}, layer_of_log(log, spacing_m, false, choice)}};
+    };
+    const ModelFile file(built<2>(geology_in(10), {20, 200}, 10));
+    const auto read = read_model<2>(file.path());
+    ASSERT_TRUE(ModelInCells(read).as_built());
+    // Finer than the log's own step, finer, and coarser.
+    for (const double size_m : {0.1, 2.5, 20.}) {
+      Model<2> direct;
+      direct.medium =
+          layered_medium(grid_of_size<2>({20, 200}, size_m), geology_in(size_m).layers, Average::tilted);
+      expect_same_cells(in_cells_of(read, size_m), direct);
+    }
+    EXPECT_NE(in_cells_of(read, 2.5).medium.vp({1, 60}), regridded(read, 2.5).medium.vp({1, 60}));
+  }
+}
+
+TEST(Geology, OfALogThatIsDamagedIsRefusedWithItsPlace) {
+  WellLog log;
+  log.depths_m = {1, 3, 5, 7};
+  log.materials.assign(4, {3000, 1600, 2300});
+  const auto refused = [](const LayerLog& written) {
+    Geology geology{.maker = Maker::sw_layers, .layers = {{0, 3000, 1600, 2300}}};
+    auto model = built<2>(geology, {20, 20}, 5);
+    model.geology.layers[0].log = written;
+    const ModelFile file(model);
+    const auto sentence = sentence_of([&] { read_model<2>(file.path()); });
+    return sentence.substr(std::min(sentence.size(), file.path().size() + 2));
+  };
+  const auto& rock = log.materials;
+  EXPECT_EQ(refused({log.depths_m, rock, {}, false}), "");
+  EXPECT_EQ(refused({{1, 3, 3, 7}, rock, {}, false}),
+            "layer_log_depth: found 3 after 3, expected depths to ascend");
+  EXPECT_EQ(refused({log.depths_m, rock, -5, false}), "layer_log_block: found -5, expected it not below 0");
+  auto wet = rock;
+  wet[2].vs = 0;
+  EXPECT_EQ(refused({log.depths_m, wet, {}, false}),
+            "layer_log_vs: found fluid beside rock, expected one of them");
+  wet[2].vp = 0;
+  EXPECT_EQ(refused({log.depths_m, wet, {}, false}), "layer_log_vp: found 0, expected a speed or density");
 }
 
 TEST(CellsOfSize, AreLevelBeyondTheEndsOfACurve) {

@@ -26,6 +26,11 @@ std::string said(const std::string& text, const LogChoice& choice = {}) {
   return sentence;
 }
 
+/// The head of a file whose rows take several lines.
+std::string in_several_lines(std::string head) {
+  return head.replace(head.find("WRAP.  NO"), 9, "WRAP. YES");
+}
+
 /// Thin beds of two rocks, one after the other, 0.1 m each.
 WellLog thin_beds() {
   WellLog log;
@@ -51,8 +56,9 @@ TEST(WellLog, OfLasComesInSI) {
   EXPECT_DOUBLE_EQ(log.materials[1].rho, 2300);
   EXPECT_EQ(log.curves,
             "depth from dept (FT), vp from dt (US/FT), vs from dtsm (US/F), rho from rhob (G/CC)");
-  // Wrapped lines hold the same, and so does a file that was logged upwards.
-  const auto wrapped = log_of(las_head + "~A\n102.0\n 80 160\n 2.3 61\n101.0 100\n200 2.2 -999.25\n");
+  // Rows over several lines hold the same, and so does a file that was logged upwards.
+  const auto wrapped =
+      log_of(in_several_lines(las_head) + "~A\n102.0\n 80 160\n 2.3 61\n101.0 100\n200 2.2 -999.25\n");
   EXPECT_EQ(wrapped.depths_m, log.depths_m);
   EXPECT_EQ(wrapped.materials[0], log.materials[0]);
 }
@@ -89,7 +95,29 @@ TEST(WellLog, SaysWhatIsMissingOrAmbiguous) {
   EXPECT_EQ(said("0 2000 1000 2000\n1 2000 1000 2000\n"),
             "found no header line, expected names above the columns, as DEPTH.M VP.M/S VS.M/S RHO.G/CC");
   EXPECT_EQ(said("~Version\n VERS. 3.0 : CWLS\n"), "line 2: found LAS version '3.0', expected 1.2 or 2.0");
-  EXPECT_EQ(said(las_head + "~A\n100 100 200 2.2\n"), "ends within a row of 5 values, begun on line 14");
+  EXPECT_EQ(said(in_several_lines(las_head) + "~A\n100 100 200 2.2\n"),
+            "ends within a row of 5 values, begun on line 14");
+  // Rows that are shifted against each other, as by a comma for a point.
+  EXPECT_EQ(said(las_head + "~A\n100 100 200 2.2\n"),
+            "line 14: found 4 values, expected 5, as many as curves (WRAP is NO)");
+  EXPECT_EQ(said(in_several_lines(las_head) + "~A\n100,0 100,0 200 2.2 60\n"),
+            "line 14: found more values in a row, expected 5, as many as curves");
+  auto metres = las_head;
+  metres.replace(metres.find("STRT.FT"), 7, "STRT.M");
+  EXPECT_EQ(said(metres + "~A\n100 100 200 2.2 60\n101 100 200 2.2 60\n"),
+            "found 100 M in ~Well and 100 FT in the curve dept, expected one unit of depths");
+  auto twice = las_head;
+  twice.replace(twice.find(" GR.GAPI"), 8, " DT.US/FT");
+  EXPECT_EQ(said(twice + "~A\n100 100 200 2.2 60\n101 100 200 2.2 60\n"),
+            "found curve dt twice, expected it once");
+  EXPECT_EQ(
+      said("depth vp vs rho\n-20 2000 1000 2000\n-10 2000 1000 2000\n"),
+      "found depths from -20 to -10 m, expected them to count downwards from the surface; heights change "
+      "sign");
+  EXPECT_EQ(
+      said("depth vp vs rho\n10 2000 1000 2000\n20 2000 9999 2000\n"),
+      "line 3: found vs 9999 with vp 2000 m/s, expected vs at most vp/sqrt(2) or a missing value, -999.25 "
+      "(--allow-auxetic takes it)");
   EXPECT_EQ(said(las_head + "~A\n100 100 200 2.2 x\n"), "line 14: found 'x', expected a number");
   EXPECT_EQ(
       said("depth dt.us/ft vs rho\n0 100 1000 2000\n1 -9999 1000 2000\n"),
