@@ -89,15 +89,6 @@ std::int64_t positive(const Table& table, std::size_t column, const std::string&
   return value;
 }
 
-double delay_of(const Table& table, std::size_t column) {
-  const double delay = table.number(column);
-  if (!(delay >= 0))
-    table.refuse(column, "found a delay of " + shown(delay) +
-                             " s, expected 0 or more, as records begin with time 0: add " + shown(-delay) +
-                             " s or more to all delays of the record");
-  return delay;
-}
-
 double amplitude_of(const Table& table, std::size_t column) {
   const double amplitude = table.number(column);
   if (amplitude == 0) table.refuse(column, "found an amplitude of 0, expected another number");
@@ -116,7 +107,7 @@ void read_sources(Table& table, int dimension, GivenSurvey& survey) {
     GivenSource source;
     source.place = places.place();
     source.from = table.place();
-    if (table.has(delay)) source.delay_s = delay_of(table, *delay);
+    if (table.has(delay)) source.delay_s = table.number(*delay);
     if (table.has(amplitude)) source.amplitude = amplitude_of(table, *amplitude);
     if (table.has(kind)) source.kind = table.text(*kind);
     if (table.has(wavelet)) source.wavelet = table.text(*wavelet);
@@ -262,7 +253,7 @@ void blend(Table& table, GivenSurvey& survey) {
       table.refuse(*shot, "found shot " + std::to_string(fired) + ", which the survey does not have");
     auto added = survey.shots[found->second];
     for (auto& source : added.sources) {
-      if (table.has(delay)) source.delay_s += delay_of(table, *delay);
+      if (table.has(delay)) source.delay_s += table.number(*delay);
       // Its own amplitude, or that of the options, which is not known here, is the other factor.
       if (table.has(amplitude)) source.factor *= amplitude_of(table, *amplitude);
     }

@@ -169,7 +169,7 @@ Identity identity_of(const Scene<D>& scene) {
   if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, monotone, tiling] =
       numerics;
-  const auto& [components, duration_s, interval_s, fibre] = recording;
+  const auto& [components, duration_s, interval_s, fibre, before_s] = recording;
   const auto& [sources, receivers_m, blended, spreads, misplaced] = survey;
   static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);        // changes no result
   static_assert(std::is_same_v<std::remove_cvref_t<decltype(misplaced)>, ErrorKind>);  // nor does this
@@ -198,6 +198,7 @@ Identity identity_of(const Scene<D>& scene) {
       {"number of sources", std::to_string(sources.size())},
       {"number of receivers", std::to_string(spreads ? spreads->count_of(1) : receivers_m.size())},
   };
+  if (before_s > 0) identity.push_back({"time before the record", shown(before_s) + " s"});
   if (monotone) identity.push_back({"criterion of monotonicity", "kept"});
   if (attenuation) identity.push_back({"attenuation", shown_attenuation(*attenuation)});
   for (int axis = 0; axis < D; ++axis)

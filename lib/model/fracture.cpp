@@ -15,6 +15,21 @@
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
+namespace {
+
+/// By ModelEffect.
+const std::vector<std::string> effect_names = {"slip",        "friction",   "viscosity",
+                                               "cohesion",    "opening",    "prestress",
+                                               "attenuation", "anisotropy", "compliance"};
+
+std::vector<Property> properties_of(ModelEffect effect) {
+  if (effect == ModelEffect::attenuation) return {Property::qp, Property::qs};
+  if (effect != ModelEffect::anisotropy) return {};
+  return {Property::epsilon, Property::delta,  Property::tilt,   Property::gamma,   Property::epsilon1,
+          Property::delta1,  Property::delta3, Property::gamma2, Property::azimuth, Property::rotation};
+}
+
+}  // namespace
 
 Point<2> normal_of_dip(double dip_deg) {
   if (!(std::abs(dip_deg) <= 90)) {
@@ -142,31 +157,37 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
 }
 
 ModelEffect model_effect_named(const std::string& name) {
-  const char* const names[] = {"slip",      "friction",    "viscosity",  "cohesion",  "opening",
-                               "prestress", "attenuation", "anisotropy", "compliance"};
-  constexpr int count = int(std::size(names));
-  std::string all;
-  for (int n = 0; n < count; ++n) {
-    if (name == names[n]) return ModelEffect(n);
-    all += (n == 0 ? "" : n == count - 1 ? " or " : ", ") + std::string(names[n]);
-  }
-  throw Error("found '" + name + "', expected " + all, ErrorKind::usage);
+  const auto at = std::find(effect_names.begin(), effect_names.end(), name);
+  if (at != effect_names.end()) return ModelEffect(at - effect_names.begin());
+  throw Error("found '" + name + "', expected " + joined(effect_names, " or "), ErrorKind::usage);
+}
+
+std::string name_of(ModelEffect effect) { return effect_names[std::size_t(effect)]; }
+
+template <int D>
+bool has_effect(const Model<D>& model, ModelEffect effect) {
+  if (effect == ModelEffect::prestress) return !model.prestress_pa.empty();
+  for (const auto property : properties_of(effect))
+    if (model.medium.has(property)) return true;
+  if (effect == ModelEffect::anisotropy) return tilted_means(model.medium) > 0;
+  return std::any_of(model.fracture_sets.begin(), model.fracture_sets.end(), [&](const auto& set) {
+    return std::any_of(set.systems.begin(), set.systems.end(), [&](const auto& system) {
+      return effect == ModelEffect::slip ||
+             (effect == ModelEffect::friction && (system.friction != 0 || system.dynamic_friction != 0)) ||
+             (effect == ModelEffect::viscosity && system.viscosity_s != 0) ||
+             (effect == ModelEffect::cohesion && system.strength_pa != 0) ||
+             (effect == ModelEffect::opening && system.opens) ||
+             (effect == ModelEffect::compliance && system.compliance.gives());
+    });
+  });
 }
 
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect) {
   if (effect == ModelEffect::prestress) model.prestress_pa.clear();
-  const auto drop = [&](Property property) {
+  for (const auto property : properties_of(effect))
     if (model.medium.has(property)) model.medium[property] = {};
-  };
-  if (effect == ModelEffect::attenuation) drop(Property::qp), drop(Property::qs);
-  if (effect == ModelEffect::anisotropy) {
-    for (const auto property :
-         {Property::epsilon, Property::delta, Property::tilt, Property::gamma, Property::epsilon1,
-          Property::delta1, Property::delta3, Property::gamma2, Property::azimuth, Property::rotation})
-      drop(property);
-    drop_tilted_means(model.medium);
-  }
+  if (effect == ModelEffect::anisotropy) drop_tilted_means(model.medium);
   for (auto& set : model.fracture_sets)
     for (auto& system : set.systems) {
       if (effect == ModelEffect::friction) system.friction = system.dynamic_friction = 0;
@@ -326,6 +347,8 @@ template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
 template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
 template void remove_effect(Model<2>&, ModelEffect);
 template void remove_effect(Model<3>&, ModelEffect);
+template bool has_effect(const Model<2>&, ModelEffect);
+template bool has_effect(const Model<3>&, ModelEffect);
 template std::vector<std::size_t> find_solid_cells<2>(const Model<2>&,
                                                       const std::function<bool(const Point<2>&)>&,
                                                       FractureCount&);

@@ -88,12 +88,18 @@ enum class ModelEffect {
 
 /// Throws a usage Error that lists the names.
 ModelEffect model_effect_named(const std::string& name);
+/// The name that it takes.
+std::string name_of(ModelEffect effect);
 
 /// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion,
 /// planes that carry tension, no prestress, neither qp nor qs, planes that do not give way as springs (where
 /// they do nothing else their cells are intact). `slip` leaves the model alone: Scene::with_slip.
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect);
+
+/// Whether a model has anything of an effect, so that taking it out may change what is simulated.
+template <int D>
+bool has_effect(const Model<D>& model, ModelEffect effect);
 
 /// How many cells a region of fractures took and did not take.
 struct FractureCount {

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/processor_time.hpp"
 #include "grid/locate.hpp"
+#include "scene/empty_gather.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
@@ -72,7 +73,8 @@ template <int D>
 std::vector<Gather> SceneRuns<D>::shoot_all(const Scene<D>& scene, const std::string& title) const {
   std::vector<Gather> gathers;
   for (const auto shot : observed_.shots)
-    gathers.push_back(shoot(scene, shot, in_cells_.progress ? in_cells_.progress(title) : Progress()));
+    gathers.push_back(in_record(
+        shoot(scene, shot, in_cells_.progress ? in_cells_.progress(title) : Progress()), scene.recording));
   return gathers;
 }
 

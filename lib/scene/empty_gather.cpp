@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/empty_gather.hpp"
 
+#include <algorithm>
+
 #include "grid/locate.hpp"
 
 namespace slipwave {
@@ -79,6 +81,17 @@ Gather empty_gather(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
       gather.traces.push_back({header, {}});
       gather.traces.back().samples.reserve(std::size_t(gather.axis.count));
     }
+  }
+  return gather;
+}
+
+Gather in_record(Gather gather, const Recording& recording) {
+  const auto before = recording.samples_before();
+  if (before == 0) return gather;
+  gather.axis.count -= before;
+  for (auto& trace : gather.traces) {
+    const auto gone = std::min(trace.samples.size(), std::size_t(before));
+    trace.samples.erase(trace.samples.begin(), trace.samples.begin() + std::ptrdiff_t(gone));
   }
   return gather;
 }

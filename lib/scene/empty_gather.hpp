@@ -12,4 +12,7 @@ namespace slipwave {
 template <int D>
 Gather empty_gather(const Scene<D>& scene, std::size_t shot, Ranks* ranks = nullptr);
 
+/// The samples of the record itself, from its own time 0 on (Recording::before_s).
+Gather in_record(Gather gather, const Recording& recording);
+
 }  // namespace slipwave

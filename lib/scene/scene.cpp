@@ -78,6 +78,14 @@ void check_positive(double value, const char* what, const char* unit) {
 }
 
 /// They are counted in whole numbers; more would never end.
+/// What is longer than all of the time would leave its beginning alone.
+void check_within(double duration_s, const char* what, double interval_s) {
+  if (interval_s <= duration_s) return;
+  throw Error("found " + std::string(what) + " of " + shown(interval_s) + " s, expected at most --time, " +
+                  shown(duration_s) + " s",
+              ErrorKind::usage);
+}
+
 void check_count(double duration_s, const char* what, double interval_s, const char* counted) {
   constexpr double most = std::numeric_limits<std::int32_t>::max();
   if (duration_s / interval_s < most) return;
@@ -296,9 +304,11 @@ void check(const Scene<D>& scene) {
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");
   check_count(scene.recording.duration_s, "--dt", scene.recording.interval_s, "samples");
+  check_within(scene.recording.duration_s, "--dt", scene.recording.interval_s);
   if (scene.snapshot_every_s) {
     check_positive(*scene.snapshot_every_s, "--every", "s");
     check_count(scene.recording.duration_s, "--every", *scene.snapshot_every_s, "snapshots");
+    check_within(scene.recording.duration_s, "--every", *scene.snapshot_every_s);
   }
   const auto& numerics = scene.numerics;
   if (!holds(orders, numerics.order))

@@ -45,13 +45,17 @@ struct Numerics {
   Tiling tiling;
 };
 
-/// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included.
+/// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included. Where
+/// sources fire before the record begins, t = 0 is `before_s` ahead of that, a whole number of samples, and
+/// delays of sources count from there; in_record() leaves what was before.
 struct Recording {
   std::vector<Component> components;
   double duration_s = 0;
   double interval_s = 0;
   std::optional<Fibre> fibre{};  // of Component::das
+  double before_s = 0;
   std::int64_t samples() const;
+  std::int64_t samples_before() const { return std::int64_t(before_s / interval_s + 0.5); }
 };
 
 /// Everything a run depends on.

@@ -179,21 +179,16 @@ void check_measuring(const ShootingOptions& options) {
   const auto usage = [](const std::string& sentence) { throw Error(sentence, ErrorKind::usage); };
   if (options.error_of != "traces" && options.error_of != "response")
     usage("--of: found '" + options.error_of + "', expected traces or response");
-  if (options.error_of == "response" && !measures(options))
-    usage("--of response needs --error, --measure or --error-gather");
   if (options.wanted_error && !(*options.wanted_error > 0))
     usage("--error: found " + shown(*options.wanted_error) + ", expected it above 0");
   if (options.wanted_error && options.plan)
     usage(
         "found --plan with --error, which runs the scene to choose; --plan --measure measures its own "
         "setting");
-  if (options.budget_s && !options.wanted_error) usage("--budget needs --error");
   if (options.budget_s && !(*options.budget_s > 0))
     usage("--budget: found " + shown(*options.budget_s) + " s, expected it above 0");
   if (!options.error_gather.empty() && options.plan)
     usage("found --error-gather with --plan, expected a run: its traces are compared");
-  if (options.json && !options.plan && !options.measure && !options.wanted_error)
-    usage("--json needs --plan, --measure or --error");
   if (options.json && !options.plan && options.output.traces == "-")
     usage("found --json and traces to standard output, expected -o FILE");
 }

@@ -20,7 +20,9 @@ namespace {
 /// What shots that are simulated at once may take of memory together.
 constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;
 
-SampleAxis axis_of(const Recording& recording) { return {recording.samples(), recording.interval_s, 0}; }
+SampleAxis axis_of(const Recording& recording) {
+  return {recording.samples() - recording.samples_before(), recording.interval_s, 0};
+}
 
 }  // namespace
 
@@ -46,8 +48,8 @@ void OutputOptions::check_sampling(const Recording& recording,
   try {
     segy::checked_format(info);
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) + " (--time " + shown(recording.duration_s) + ", --dt " +
-                    shown(recording.interval_s) + "; " +
+    throw Error(std::string(error.what()) + " (--time " + shown(recording.duration_s - recording.before_s) +
+                    ", --dt " + shown(recording.interval_s) + "; " +
                     (info.format.su ? "name the output .sgy" : "--revision 2, or a longer --dt") + ")",
                 ErrorKind::usage);
   }
@@ -100,9 +102,6 @@ void OutputOptions::check_names(std::size_t shots) const {
 }
 
 void OutputOptions::check_checkpoint() const {
-  if (checkpoint_every_s && checkpoint.empty())
-    throw Error("found --checkpoint-every without --checkpoint, expected where to write it",
-                ErrorKind::usage);
   if (checkpoint_every_s && !(*checkpoint_every_s > 0))
     throw Error("--checkpoint-every: found " + shown(*checkpoint_every_s) + ", expected it above 0",
                 ErrorKind::usage);

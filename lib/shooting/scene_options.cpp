@@ -2,6 +2,7 @@
 #include "shooting/scene_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -31,12 +32,34 @@ class Once {
   const Value& get(const std::string& text, const std::string& place, const Parse& parse) {
     const auto at = known_.find(text);
     if (at != known_.end()) return at->second;
-    return known_.emplace(text, in_place(place, [&] { return parse(text); })).first->second;
+    try {
+      return known_.emplace(text, parse(text)).first->second;
+    } catch (const Error& error) {
+      // What stands in a file is data.
+      throw Error(place + ": " + error.what(), place.starts_with("--") ? error.kind() : ErrorKind::data);
+    }
   }
 
  private:
   std::map<std::string, Value> known_;
 };
+
+/// Lets delays count from the first source that fires before the record begins, to a whole number of samples;
+/// returns by how much before.
+template <int D>
+double begin_early(Survey<D>& survey, double interval_s) {
+  double earliest_s = 0;
+  const auto each = [&](const auto& take) {
+    for (auto& source : survey.sources) take(source);
+    for (auto& others : survey.blended)
+      for (auto& source : others) take(source);
+  };
+  each([&](const Source<D>& source) { earliest_s = std::min(earliest_s, source.delay_s); });
+  if (!(earliest_s < 0 && interval_s > 0)) return 0;
+  const double before_s = std::ceil(-earliest_s / interval_s - 1e-9) * interval_s;
+  each([&](Source<D>& source) { source.delay_s = std::max(0., source.delay_s + before_s); });
+  return before_s;
+}
 
 /// Sources without their positions, which the model's ground may decide.
 template <int D>
@@ -121,8 +144,9 @@ Scene<D> SceneOptions::without_model() const {
   scene.survey = make_survey<D>(*this);
   for (const auto& name : split(record, ','))
     in_place("--record", [&] { add_component<D>(name, scene.recording); });
-  scene.recording.duration_s = duration_s;
   scene.recording.interval_s = interval_s;
+  scene.recording.before_s = begin_early(scene.survey, interval_s);
+  scene.recording.duration_s = duration_s + scene.recording.before_s;
   for (int axis = 0; axis < D - 1; ++axis) scene.edges[axis] = {edge_law(sides), edge_law(sides)};
   scene.edges[D - 1] = {edge_law(top), edge_law(bottom)};
   scene.numerics.order = std::stoi(order);
@@ -173,8 +197,10 @@ AttenuationChoice SceneOptions::attenuation() const {
 /// Of wavelets that a record cuts off, each once.
 template <int D>
 void add_wavelet_warnings(std::vector<std::string>& warnings, const Scene<D>& scene) {
+  const double before_s = scene.recording.before_s;
   const auto see = [&](const Source<D>& source) {
-    const auto warning = beyond_record(source.wavelet, source.delay_s, scene.recording.duration_s);
+    const auto warning =
+        beyond_record(source.wavelet, source.delay_s - before_s, scene.recording.duration_s - before_s);
     if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
       warnings.push_back(warning);
   };
@@ -198,16 +224,36 @@ std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   }
 }
 
+/// Of options that change nothing in this scene.
+template <int D>
+std::vector<std::string> SceneOptions::idle(const Scene<D>& scene) const {
+  std::vector<std::string> sentences;
+  const auto effects = effects_without();
+  const bool elastic = std::count(effects.begin(), effects.end(), ModelEffect::attenuation) > 0;
+  const SceneOptions usual;
+  for (const auto& [given, option] :
+       {std::pair(q_frequency_hz.has_value(), "--q-frequency"), std::pair(!q_band.empty(), "--q-band"),
+        std::pair(q_mechanisms != usual.q_mechanisms, "--q-mechanisms")})
+    if (given && !scene.attenuation)
+      sentences.push_back(
+          std::string(option) + " has no effect" +
+          (elastic ? " beside --without attenuation" : ": no cell of the model has a finite qp or qs"));
+  if (correction != usual.correction && !scene.slips())
+    sentences.push_back("--correction has no effect: nothing in the scene slips");
+  if (edge_width != 0 && top != "absorbing" && sides != "absorbing" && bottom != "absorbing")
+    sentences.push_back("--edge-width has no effect: no boundary is absorbing");
+  return sentences;
+}
+
 template <int D>
 std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
   scene.model = read_model<D>(file);
-  auto warnings = prepare_model(scene);
-  const auto without_effects = effects_without();
-  const bool left_out = std::find(without_effects.begin(), without_effects.end(), ModelEffect::attenuation) !=
-                        without_effects.end();
-  if ((q_frequency_hz || !q_band.empty()) && !scene.attenuation && !left_out)
-    warnings.push_back(std::string(q_frequency_hz ? "--q-frequency" : "--q-band") +
-                       " has no effect: no cell of the model has a finite qp or qs");
+  std::vector<std::string> warnings;
+  for (const auto effect : effects_without())
+    if (!has_effect(scene.model, effect))
+      warnings.push_back("--without " + name_of(effect) + " has no effect: the model has none");
+  for (const auto& more : {prepare_model(scene), idle(scene)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
   place_on_model(scene);
   check(scene);
   return warnings;
@@ -217,6 +263,7 @@ template <int D>
 void SceneOptions::place_again(Scene<D>& scene) const {
   auto survey = make_survey<D>(*this);
   if (!needs_ground(survey)) return;
+  begin_early(survey, interval_s);
   scene.survey = std::move(survey);
   place_on_model(scene);
 }

@@ -53,6 +53,8 @@ struct SceneOptions {
   void check_model(Model<D>& model) const;
   AttenuationChoice attenuation() const;
   template <int D>
+  std::vector<std::string> idle(const Scene<D>& scene) const;
+  template <int D>
   std::vector<std::string> prepare_model(Scene<D>& scene) const;
   std::vector<ModelEffect> effects_without() const;
 };

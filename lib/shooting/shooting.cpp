@@ -62,9 +62,11 @@ Scene<D> make_scene(const ShootingOptions& options) {
   if (any_snapshot) {
     if (!options.snapshot_every_s)
       throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
+    if (scene.recording.before_s > 0)
+      throw Error(
+          "found --snapshots and a delay below 0, expected one of them: snapshots begin with the record",
+          ErrorKind::usage);
     scene.snapshot_every_s = options.snapshot_every_s;
-  } else if (!output.slice.empty()) {
-    throw Error("--slice needs --snapshots, where they go", ErrorKind::usage);
   }
   scene.slip_diary = options.balance || (any_snapshot && output.wants_slip());
   output.check<D>(scene.survey.sources.size());

@@ -184,7 +184,6 @@ void SurveyOptions::check() const {
   if (!inject.empty() && (!sources.empty() || !geometry.empty()))
     refuse("found --inject and " + std::string(sources.empty() ? "--geometry" : "--source") +
            ", expected one of them");
-  if (reverse && inject.empty()) refuse("found --reverse without --inject, expected both");
 }
 
 MapFrame SurveyOptions::frame() const {

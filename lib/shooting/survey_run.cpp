@@ -10,6 +10,7 @@
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
 #include "parallel/threads.hpp"
+#include "scene/empty_gather.hpp"
 #include "shooting/energy_balance.hpp"
 #include "shooting/output_names.hpp"
 #include "shooting/textual_header.hpp"
@@ -75,7 +76,8 @@ void SurveyRun<D>::run() {
     const auto saved = save_unstable(error);
     throw Error((shots() > 1 ? "shot " + number(error.shot()) + ": " : "") + error.what() +
                     (saved.empty() ? ""
-                                   : "; what it recorded until t=" + shown(error.sound_until_s(), 6) +
+                                   : "; what it recorded until t=" +
+                                         shown(error.sound_until_s() - scene_.recording.before_s, 6) +
                                          " s is in " + joined(saved)),
                 ErrorKind::unstable);
   }
@@ -152,9 +154,10 @@ std::vector<ShotReport> SurveyRun<D>::simulate_in_threads(std::span<const std::s
     const auto shot = some[std::size_t(n)];
     const auto pauses = state_.pauses_of(shot, snapshots_ ? snapshots_->mark() : RunState::Mark());
     // The first of those that run together speaks for all.
-    state_.finish(shot, shoot(scene_, shot, n == 0 ? progress : Progress(),
-                              snapshots_ ? snapshots_->sink() : SnapshotSink<D>(), pauses.get(),
-                              scene_.slip_diary ? &reports[std::size_t(n)] : nullptr));
+    state_.finish(shot, in_record(shoot(scene_, shot, n == 0 ? progress : Progress(),
+                                        snapshots_ ? snapshots_->sink() : SnapshotSink<D>(), pauses.get(),
+                                        scene_.slip_diary ? &reports[std::size_t(n)] : nullptr),
+                                  scene_.recording));
   });
   return reports;
 }
@@ -166,9 +169,9 @@ std::vector<ShotReport> SurveyRun<D>::simulate_on_ranks(std::span<const std::siz
                     : options_.snapshots.empty()
                         ? SnapshotSink<D>()
                         : sink_of_helper<D>(parse_snapshot_fields<D>(options_.snapshot_fields));
-  const auto outcomes = groups_->shoot(scene_, some, writes() ? progress_of(some) : Progress(), sink);
+  auto outcomes = groups_->shoot(scene_, some, writes() ? progress_of(some) : Progress(), sink);
   for (std::size_t n = 0; n < outcomes.size(); ++n) {
-    state_.finish(outcomes[n].shot, outcomes[n].gather);
+    state_.finish(outcomes[n].shot, in_record(std::move(outcomes[n].gather), scene_.recording));
     reports[n] = outcomes[n].report;
   }
   return reports;
@@ -191,10 +194,10 @@ std::vector<std::string> SurveyRun<D>::save_unstable(const Unstable& error) {
     if (traces_.one_per_shot()) traces_.write_finished(state_, shots());
     if (!options_.keep_unstable) return {};
     for (std::size_t shot = 1; traces_.one_per_shot() && shot <= shots(); ++shot) state_.forget(shot);
-    state_.finish(error.shot(), error.gather());
+    state_.finish(error.shot(), in_record(error.gather(), scene_.recording));
     traces_.write_unstable(state_, shots(),
                            "shot " + number(error.shot()) + " became unstable: its samples after " +
-                               shown(error.sound_until_s(), 6) + " s are zero",
+                               shown(error.sound_until_s() - scene_.recording.before_s, 6) + " s are zero",
                            saved);
     if (!snapshots_) return saved;
     const auto name = unstable_name(name_for(options_.snapshots, options_.number_of(error.shot()), ""));

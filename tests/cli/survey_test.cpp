@@ -165,6 +165,22 @@ TEST_F(SurveyOfSea, BlendedShotsAddUp) {
   EXPECT_EQ(content("sum.txt"), "adds up\n");
 }
 
+TEST_F(SurveyOfSea, ADelayBelowZeroFiresBeforeTheRecord) {
+  // Times are 0.001 s times powers of 2, so that 32 samples are to the bit what both differ by.
+  const std::string line = "sw-shoot m.nc --wavelet ricker:20 --record p --receivers 300,20 ";
+  write("early.csv", "shot,x,z,delay\n1,200,10,-0.032\n1,400,10,0.032\n2,500,10,0\n");
+  write("late.csv", "shot,x,z,delay\n1,200,10,0\n1,400,10,0.064\n2,500,10,0.032\n");
+  done(line + "--time 0.256 --source @early.csv -o early.sgy");
+  done(line + "--time 0.288 --source @late.csv -o late.sgy");
+  for (const std::string shot : {"1", "2"}) {
+    done("for f in early late; do sw-select $f.sgy --where shot=" + shot +
+         " -o one.sgy; od -An -v -tx4 -w4 -j 3840 one.sgy > $f.txt; done");
+    EXPECT_EQ(done("cat early.txt | wc -l"), "257\n");
+    done("tail -n 257 late.txt | cmp - early.txt");
+  }
+  EXPECT_TRUE(has(info("early.sgy"), "0 to 0.256 s")) << info("early.sgy");
+}
+
 TEST_F(SurveyOnHill, GeophonesStandOnTheGround) {
   for (const std::string fit : {"surface,floor", "none"}) {
     make(fit);
@@ -222,11 +238,9 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
           "t.csv: line 3: found channel 1 again (first: t.csv: line 2), expected it once");
   refused("x,z,shot\n1,2,1\n1,2,2\n", shot, 1,
           "t.csv: line 3: found a receiver of shot 2, which has no source");
-  refused("x,z,delay\n1,2,-1\n", shots, 1,
-          "t.csv: line 2: column delay: found a delay of -1 s, expected 0 or more, as records begin with "
-          "time 0: add 1 s or more to all delays of "
-          "the record");
-  refused("x,z,wavelet\n100,20,rick:3\n", shots, 2,
+  refused("x,z,delay\n1,2,-1\n", shots + " --snapshots s.nc --every 0.1", 2,
+          "found --snapshots and a delay below 0, expected one of them: snapshots begin with the record");
+  refused("x,z,wavelet\n100,20,rick:3\n", shots, 1,
           "t.csv: line 2: wavelet: found 'rick:3', expected ricker:F, gauss:F, sine:F[:CYCLES] (F in Hz) or "
           "file:PATH");
   refused("", shots, 1, "t.csv: found no row, expected a table");
