@@ -127,11 +127,11 @@ std::vector<double> depths_of(const NetcdfFile& file, const std::string& variabl
   auto depths = values_in(file, variable, "m");
   if (depths.empty()) return depths;
   const auto sense = vertical_sense(file, variable);
+  const auto [least, largest] = std::minmax_element(depths.begin(), depths.end());
   // "depth" is what many call heights below zero, too.
   const bool said = sense == VerticalSense::up || file.text_attribute(variable, "positive") ||
-                    sense_of_name(lower_attribute(file, variable, "standard_name"));
+                    (sense_of_name(lower_attribute(file, variable, "standard_name")) && *largest > 0);
   const bool named = sense || lower(variable) == "z";
-  const auto [least, largest] = std::minmax_element(depths.begin(), depths.end());
   if (!said && (*least < 0 || !named))
     throw Error(place_of(file, variable) + "found " + slipwave::shown(*least) + " to " +
                 slipwave::shown(*largest) +

@@ -191,19 +191,27 @@ std::vector<float> NetcdfFile::get_physical(const std::string& name, const std::
   const auto scale = first("scale_factor"), offset = first("add_offset");
   const auto missing = first("missing_value");
   const auto fill = first("_FillValue");
+  // What lies outside the valid range, which is of packed values, is missing, too.
+  const auto range = number_attribute(name, "valid_range");
+  const bool whole = range && range->size() == 2;
+  const auto least = whole ? range->front() : first("valid_min").value_or(-HUGE_VAL);
+  const auto largest = whole ? range->back() : first("valid_max").value_or(HUGE_VAL);
   constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
   if (!scale && !offset) {
     auto values = get<float>(name, start, count);
     const float blank = fill ? float(*fill) : NC_FILL_FLOAT;
     for (auto& value : values) {
-      if (value == blank || (missing && value == float(*missing))) value = nothing;
+      if (value == blank || (missing && value == float(*missing)) || value < float(least) ||
+          value > float(largest))
+        value = nothing;
     }
     return values;
   }
   const auto packed = get<double>(name, start, count);
   std::vector<float> values(packed.size());
   for (std::size_t i = 0; i < packed.size(); ++i) {
-    const bool blank = (fill && packed[i] == *fill) || (missing && packed[i] == *missing);
+    const bool blank = (fill && packed[i] == *fill) || (missing && packed[i] == *missing) ||
+                       packed[i] < least || packed[i] > largest;
     values[i] = blank ? nothing : float(packed[i] * scale.value_or(1) + offset.value_or(0));
   }
   return values;

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_units.hpp"
 #include "model/import.hpp"
@@ -19,6 +20,8 @@ using Variable = NetcdfFile::Variable;
 }
 
 Variable chosen_variable(const NetcdfFile& file, const std::string& property, const std::string& name) {
+  if (!name.empty() && !file.has_variable(name))
+    throw Error(file.shown_name() + ": found no variable '" + excerpt(name) + "'", ErrorKind::usage);
   if (!name.empty()) return file.variable(name);
   if (file.has_variable(property)) return file.variable(property);
   std::vector<Variable> fields;
@@ -66,12 +69,28 @@ std::size_t depth_dimension(const NetcdfFile& file, const Variable& variable, bo
   return 0;
 }
 
+/// Of times, or runs of a model: no place.
+bool is_no_place(const NetcdfFile& file, const std::string& dimension) {
+  const auto name = lower(dimension);
+  for (const char* other : {"t", "time", "twt", "ensemble", "member", "realization", "realisation"})
+    if (name == other) return true;
+  if (!file.has_variable(dimension)) return false;
+  const auto units = file.text_attribute(dimension, "units").value_or("");
+  return file.text_attribute(dimension, "axis").value_or("") == "T" ||
+         units.find(" since ") != std::string::npos || (!units.empty() && unit_conversion(units, "s"));
+}
+
 Order order_of(const NetcdfFile& file, const Variable& variable) {
   Order order;
   order.of[2] = depth_dimension(file, variable, order.guessed_depth);
   std::vector<std::size_t> level;
   for (std::size_t n = 0; n < variable.dimensions.size(); ++n)
     if (n != order.of[2]) level.push_back(n);
+  for (const auto n : level)
+    if (const auto& name = variable.dimensions[n]; variable.dimensions.size() == 3 && is_no_place(file, name))
+      refuse(file, variable.name,
+             "found the dimension " + name + ", expected places alone: take one out, as with ncwa -a " +
+                 name + " -d " + name + ",0 FILE OUT");
   // As CF recommends, x comes last.
   std::reverse(level.begin(), level.end());
   if (level.size() == 2 && (is_horizontal(file, variable.dimensions[level[0]], 'y') ||

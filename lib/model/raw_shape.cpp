@@ -60,6 +60,21 @@ Roughness roughness(const std::vector<char>& bytes, std::int64_t length) {
           jumps(bytes, length) / std::max(along, 1e-30)};
 }
 
+/// Mean difference of values so far from each other.
+double difference_over(const std::vector<char>& bytes, std::int64_t distance) {
+  const std::int64_t last = std::int64_t(bytes.size() / 4) - distance;
+  const std::int64_t step = last / most_values | 1;
+  double sum = 0;
+  std::int64_t count = 0;
+  for (std::int64_t at = 0; at < last; at += step) {
+    const double change = double(raw_value(bytes, at + distance)) - double(raw_value(bytes, at));
+    if (!std::isfinite(change)) continue;
+    sum += std::abs(change);
+    ++count;
+  }
+  return count == 0 ? 0 : sum / double(count);
+}
+
 std::string times(std::int64_t a, std::int64_t b) { return std::to_string(a) + "x" + std::to_string(b); }
 
 const char* name_of(FastAxis fast) { return fast == FastAxis::z ? "z-fast" : "x-fast"; }
@@ -77,12 +92,40 @@ std::string shape_of(const Grid<D>& grid) {
   return times(grid.shape[0], grid.shape[1]) + "x" + std::to_string(grid.shape[2]);
 }
 
+// What counts as clearly more; noise differs by some tenths.
+constexpr double much = 2;
+
+/// Of a volume: lines along y, and the two slower axes the other way round. Next to a slice of the right size
+/// is its neighbour.
+void check_slow_axes(const std::vector<char>& bytes, const Grid<3>& grid, FastAxis fast, double unlike) {
+  const auto refuse = [&](const std::string& found) {
+    throw Error("found " + shape_of(grid) + " in the order " + name_of(fast) + ", in which " + found +
+                    "; expected x slowest and z fastest, or with --order x-fast z slowest and x fastest, or "
+                    "--allow-rough to take it as it is",
+                ErrorKind::usage);
+  };
+  const auto [nx, ny, nz] = grid.shape;
+  const std::int64_t lines = fast == FastAxis::z ? nz : nx, slices = fast == FastAxis::z ? nx : nz;
+  const double along_y = ny == lines ? unlike : roughness(bytes, ny).unlike;
+  if (unlike > much * along_y)
+    refuse("neighbouring lines of " + std::to_string(lines) +
+           " values do not continue each other: steps along "
+           "them differ by " +
+           shown(unlike, 3) + " in the mean, along lines of " + std::to_string(ny) + " values by " +
+           shown(along_y, 3));
+  if (ny == slices) return;
+  const double given = difference_over(bytes, lines * ny), exchanged = difference_over(bytes, lines * slices);
+  if (given > much * exchanged)
+    refuse("values change by " + shown(given, 3) + " from slice to slice of " + times(lines, ny) +
+           ", but by " + shown(exchanged, 3) + " from one of " + times(lines, slices) + " to the next");
+}
+
 }  // namespace
 
 template <int D>
 void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast) {
-  // What counts as clearly more; noise differs by some tenths. Fewer cells have too few lines to compare.
-  constexpr double much = 2, far_more = 3, undecided = 0.7;
+  // Fewer cells have too few lines to compare.
+  constexpr double far_more = 3, undecided = 0.7;
   constexpr std::int64_t fewest = 4;
   const std::int64_t nx = grid.shape[0], nz = grid.shape[D - 1];
   if (nx < fewest || nz < fewest || bytes.size() != std::size_t(grid.size()) * 4) return;
@@ -100,6 +143,8 @@ void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAx
                shown(as_given.unlike, 3) + " in the mean, along lines of " + std::to_string(other) +
                " values by " + shown(exchanged.unlike, 3),
            true);
+  if constexpr (D == 3)
+    if (grid.shape[1] >= fewest) check_slow_axes(bytes, grid, fast, as_given.unlike);
   if (as_given.unlike < undecided * exchanged.unlike) return;
   if (given != other && exchanged.jump > far_more * std::max(1., as_given.jump))
     refuse(std::string("the ends of ") + lines + " are no ends: values jump after each " +
@@ -112,6 +157,26 @@ void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAx
     refuse("values change by " + shown(along_x, 3) + " from cell to cell along x, but by " +
                shown(along_z, 3) + " along z: layers would stand upright",
            false);
+}
+
+std::string doubt_of_depth(const Field<3>& speeds) {
+  const auto& grid = speeds.grid();
+  const auto rows = std::size_t(grid.shape[2]);
+  constexpr std::size_t fewest = 4;
+  if (rows < fewest) return "";
+  std::vector<double> means(rows);
+  for (std::int64_t n = 0; n < grid.size(); ++n)
+    means[std::size_t(grid.index(n)[2])] += double(speeds[std::size_t(n)]);
+  double sum = 0, squares = 0, product = 0, depths = 0;
+  for (auto& mean : means) sum += mean /= double(grid.shape[0] * grid.shape[1]);
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double apart = means[k] - sum / double(rows), depth = double(k) - 0.5 * double(rows - 1);
+    squares += apart * apart, product += apart * depth, depths += depth * depth;
+  }
+  // The share of the variance that a straight line takes.
+  if (!(product < 0 && product * product > 0.5 * squares * depths)) return "";
+  return "speeds fall with depth, from " + shown(means.front(), 4) + " in the first row to " +
+         shown(means.back(), 4) + " in the last, as those of a file from the bottom up do";
 }
 
 template void check_raw_shape(const std::vector<char>&, const Grid<2>&, FastAxis);

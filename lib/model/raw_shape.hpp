@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/import.hpp"
@@ -13,5 +14,9 @@ namespace slipwave {
 /// apart, as where both are equal, an order that makes layers stand upright is refused.
 template <int D>
 void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast);
+
+/// A sentence where speeds fall with depth by more than half of what the means of rows vary, as those of a
+/// file that begins at the bottom do; "" otherwise.
+std::string doubt_of_depth(const Field<3>& speeds);
 
 }  // namespace slipwave

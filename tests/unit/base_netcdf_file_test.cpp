@@ -148,6 +148,12 @@ TEST_F(NetcdfFileTest, GivesPhysicalValuesAndNaNWhereThereIsNone) {
     file.put_attribute("packed", "add_offset", std::vector<double>{100});
     file.put("packed", std::vector<int>{0, -1, 4}.data());
     file.define_variable("unwritten", NetcdfFile::Type::f32, {"x"});
+    file.define_variable("ranged", NetcdfFile::Type::f32, {"x"});
+    file.put_attribute("ranged", "valid_range", std::vector<double>{0, 5});
+    file.put("ranged", std::vector<float>{-1, 5, 6}.data());
+    file.define_variable("bounded", NetcdfFile::Type::f32, {"x"});
+    file.put_attribute("bounded", "valid_max", std::vector<double>{5});
+    file.put("bounded", std::vector<float>{-1, 5, 6}.data());
     file.close();
   }
   const auto file = NetcdfFile::open(path("a.nc"));
@@ -155,6 +161,9 @@ TEST_F(NetcdfFileTest, GivesPhysicalValuesAndNaNWhereThereIsNone) {
   EXPECT_EQ(packed[0], 100);
   EXPECT_TRUE(std::isnan(packed[1]));
   EXPECT_EQ(packed[2], 102);
+  const auto ranged = file.get_physical("ranged"), bounded = file.get_physical("bounded");
+  EXPECT_TRUE(std::isnan(ranged[0]) && ranged[1] == 5 && std::isnan(ranged[2]));
+  EXPECT_TRUE(bounded[0] == -1 && bounded[1] == 5 && std::isnan(bounded[2]));
   for (const float value : file.get_physical("unwritten")) EXPECT_TRUE(std::isnan(value));
 }
 

@@ -146,3 +146,37 @@ TEST_F(ImportedAxis, OfThreeDimensionsIsAVolume) {
     EXPECT_FLOAT_EQ(field.values[std::size_t(n)], float(1000 + 100 * at[2] + 10 * at[1] + at[0]));
   }
 }
+
+TEST_F(ImportedAxis, OfTimesIsNoPlace) {
+  const auto refusal = [&](const std::string& name, const Attributes& attributes) {
+    {
+      auto file = NetcdfFile::create(path_, path_);
+      for (const auto& [dimension, count] : {std::pair(name, 2), {std::string("z"), 3}, {"x", 2}})
+        file.define_dimension(dimension, std::size_t(count));
+      if (!attributes.empty()) file.define_variable(name, NetcdfFile::Type::f64, {name});
+      for (const auto& [key, text] : attributes) file.put_attribute(name, key, text);
+      file.define_variable("vp", NetcdfFile::Type::f32, {name, "z", "x"});
+      const std::vector<float> values(12, 2000);
+      file.put("vp", values.data());
+      file.close();
+    }
+    return sentence_of([&] { field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", 10.); });
+  };
+  for (const auto& [name, attributes] : {std::pair<std::string, Attributes>{"time", {}},
+                                         {"t", {{"units", "hours since 2020-01-01"}}},
+                                         {"record", {{"axis", "T"}}},
+                                         {"step", {{"units", "s"}}},
+                                         {"realization", {}}})
+    EXPECT_EQ(refusal(name, attributes), path_ + ": vp: found the dimension " + name +
+                                             ", expected places alone: take one out, as with ncwa -a " +
+                                             name + " -d " + name + ",0 FILE OUT");
+  EXPECT_EQ(refusal("line", {}), "");
+}
+
+TEST_F(ImportedAxis, CalledDepthAllBelowZeroSaysTooLittle) {
+  EXPECT_EQ(
+      said("z", {-25, -15, -5}, {{"standard_name", "depth"}}),
+      "z: found -25 to -5 m without the attribute positive, expected it to say whether they count up (5 to "
+      "25 m deep) or down: ncatted -a positive,z,c,c,up FILE");
+  EXPECT_EQ(said("z", {-10, 0, 10}, {{"standard_name", "depth"}}), "");
+}

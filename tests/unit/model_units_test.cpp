@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -104,6 +106,50 @@ TEST(RawShape, IsToldFromTheOtherOrderWhateverTheLayering) {
           });
           EXPECT_EQ(said == "no error", order == read_as) << n << ' ' << nx << ' ' << said;
         }
+}
+
+TEST(RawShape, OfVolumesIsToldForAllOrdersOfTheirAxes) {
+  Grid<3> grid;
+  grid.shape = {30, 12, 20};
+  std::array<int, 3> order = {0, 1, 2};  // axes of the file, the slowest first
+  do {
+    std::vector<float> values;
+    Index<3> at{};
+    const auto count = [&](int n) { return grid.shape[std::size_t(order[std::size_t(n)])]; };
+    const auto place = [&](int n) -> std::int64_t& { return at[std::size_t(order[std::size_t(n)])]; };
+    for (place(0) = 0; place(0) < count(0); ++place(0))
+      for (place(1) = 0; place(1) < count(1); ++place(1))
+        for (place(2) = 0; place(2) < count(2); ++place(2))
+          // beds that dip and bend
+          values.push_back(1500 + 100 * float(std::floor(0.5 * double(at[2]) + 0.1 * double(at[0]) +
+                                                         std::sin(0.4 * double(at[1])))));
+    std::vector<char> bytes(values.size() * 4);
+    std::copy_n(reinterpret_cast<const char*>(values.data()), bytes.size(), bytes.begin());
+    for (const auto fast : {FastAxis::z, FastAxis::x}) {
+      const auto right = fast == FastAxis::z ? std::array{0, 1, 2} : std::array{2, 1, 0};
+      const auto said = sentence_of([&] { check_raw_shape(bytes, grid, fast); });
+      EXPECT_EQ(said == "no error", order == right)
+          << order[0] << order[1] << order[2] << (fast == FastAxis::z ? " z: " : " x: ") << said;
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(RawShape, OfSpeedsThatFallWithDepthIsDoubted) {
+  Grid<3> grid;
+  grid.shape = {6, 1, 10};
+  Field<3> down(grid), up(grid), level(grid);
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto [x, y, k] = grid.index(n);
+    down[std::size_t(n)] = float(1500 + 100 * k + 10 * x);
+    up[std::size_t(n)] = float(2400 - 100 * k + 10 * x);
+    level[std::size_t(n)] = k == 4 ? 3000 : 2000;  // a fast bed in the middle
+  }
+  EXPECT_EQ(doubt_of_depth(down), "");
+  EXPECT_EQ(doubt_of_depth(level), "");
+  EXPECT_EQ(
+      doubt_of_depth(up),
+      "speeds fall with depth, from 2425 in the first row to 1525 in the last, as those of a file from the "
+      "bottom up do");
 }
 
 TEST(RawShape, OfVolumesIsToldTooWithoutLookingAtY) {
