@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "base/error.hpp"
@@ -157,12 +158,19 @@ Shown in_decibels(const Spectra& spectra) {
   return shown;
 }
 
-Shown as_they_are(const Spectra& spectra, const Look& look) {
+/// Colours are full at a percentile of what the axes show: beyond the band of the data there is next to
+/// nothing.
+Shown as_they_are(const Spectra& spectra, const Look& look, const Axis& places, const Axis& frequencies) {
   Shown shown{{}, {spectra.quantity + " of " + spectra.lines[0].name, spectra.lines[0].unit, 0, 1}};
   Magnitudes magnitudes;
-  for (const auto& line : spectra.lines) {
-    shown.traces.emplace_back(line.values.begin(), line.values.end());
-    magnitudes.add(shown.traces.back());
+  const auto& all = spectra.frequencies_hz;
+  const auto first = std::size_t(std::lower_bound(all.begin(), all.end(), frequencies.low) - all.begin());
+  const auto end = std::size_t(std::upper_bound(all.begin(), all.end(), frequencies.high) - all.begin());
+  for (std::size_t n = 0; n < spectra.lines.size(); ++n) {
+    const auto& values = spectra.lines[n].values;
+    shown.traces.emplace_back(values.begin(), values.end());
+    if (spectra.places[n] >= places.low && spectra.places[n] <= places.high)
+      magnitudes.add(std::span(shown.traces.back()).subspan(first, end - first));
   }
   const double full = magnitudes.percentile(look.clip_percent);
   if (full > 0) shown.quantity.high = full;
@@ -206,47 +214,56 @@ Axis place_axis(const Spectra& spectra, const std::vector<double>& edges, const 
 }
 
 Picture draw_each(const Spectra& spectra, bool log, const Look& look, Page page) {
-  auto shown = log ? in_decibels(spectra) : as_they_are(spectra, look);
+  // Dispersion images have velocities over frequency.
+  const bool frequency_along_x = spectra.place == Spectra::Place::phase_velocity;
+  const auto cells = cells_round(spectra.places);
+  const auto band = band_of(spectra);
+  const double nyquist = spectra.frequencies_hz.back();
+  auto places = place_axis(spectra, cells.edges, band);
+  Axis frequency{"frequency", "Hz", 0, std::max(nyquist, 1.)};
+  if (band.last_hz > 0) frequency.high = std::min(frequency.high, 1.1 * band.last_hz);
+  const auto& of_places = frequency_along_x ? look.y : look.x;
+  const auto& of_frequency = frequency_along_x ? look.x : look.y;
+  if (of_places) places.low = cells.edges.front(), places.high = cells.edges.back();
+  if (of_frequency && nyquist > 0) frequency.high = nyquist;
+  narrow(places, of_places, frequency_along_x ? "--y" : "--x");
+  narrow(frequency, of_frequency, frequency_along_x ? "--x" : "--y");
+  auto shown = log ? in_decibels(spectra) : as_they_are(spectra, look, places, frequency);
   const auto& traces = shown.traces;
   if (look.colours) {
     shown.quantity.low = look.colours->low;
     shown.quantity.high = look.colours->high;
   }
   const Limits limits{shown.quantity.low, shown.quantity.high};
-  const auto cells = cells_round(spectra.places);
-  const auto band = band_of(spectra);
-  Axis frequency{"frequency", "Hz", 0, std::max(spectra.frequencies_hz.back(), 1.)};
-  if (band.last_hz > 0) frequency.high = std::min(frequency.high, 1.1 * band.last_hz);
   PanelSpec spec{page.title,
-                 place_axis(spectra, cells.edges, band),
-                 frequency,
+                 frequency_along_x ? frequency : places,
+                 frequency_along_x ? places : frequency,
                  ColourBar{map_of(look, "uniform"), shown.quantity},
                  {}};
   Magnitudes magnitudes;
   for (const auto& trace : traces) magnitudes.add(trace);
   spec.bar->point_beyond(magnitudes.lowest(), magnitudes.highest());
-  const double nyquist = spectra.frequencies_hz.back();
-  if (look.x) spec.x.low = cells.edges.front(), spec.x.high = cells.edges.back();
-  if (look.y && nyquist > 0) spec.y.high = nyquist;
-  narrow(spec.x, look.x, "--x");
-  narrow(spec.y, look.y, "--y");
   if (page.height_pt == 0) page.height_pt = 10 * points_per_cm;
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
   const Rect& plot = panel.plot();
   const int width = pixels_along(plot.width, page), height = pixels_along(plot.height, page);
   const double step = spectra.frequencies_hz.size() > 1 ? spectra.frequencies_hz[1] : 1;
-  const auto rows = cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height,
-                                    even_edges(-step / 2, step, std::int64_t(spectra.frequencies_hz.size())));
-  const auto columns = cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, cells.edges);
+  const auto along = [&](bool x, const std::vector<double>& edges) {
+    return x ? cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, edges)
+             : cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height, edges);
+  };
+  const auto of_bins =
+      along(frequency_along_x, even_edges(-step / 2, step, std::int64_t(spectra.frequencies_hz.size())));
   const std::vector<float> nothing(spectra.frequencies_hz.size(), std::numeric_limits<float>::quiet_NaN());
   const auto line = [&](std::int64_t cell) {
     return cells.is_gap(cell) ? nothing.data() : traces[std::size_t(cells.place[std::size_t(cell)])].data();
   };
-  const auto raster = reduced<float>(line, rows, columns, log ? Take::greatest : Take::extreme);
+  const auto raster = reduced<float>(line, of_bins, along(!frequency_along_x, cells.edges),
+                                     log ? Take::greatest : Take::extreme);
   Image image(width, height);
   for (int column = 0; column < width; ++column) {
     for (int row = 0; row < height; ++row) {
-      const double value = double(raster.at(row, column));
+      const double value = double(frequency_along_x ? raster.at(column, row) : raster.at(row, column));
       image.at(column, row) = spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
     }
   }

@@ -171,6 +171,39 @@ TEST_F(PlotSpectrum, WavenumbersAndFrequenciesEndWithTheBandOfTheData) {
   EXPECT_NEAR(share({.x = Limits{-0.0505, 0.0495}, .y = Limits{0, 500}}), 0.21 * (26 / 500.0), 0.005);
 }
 
+TEST_F(PlotSpectrum, DispersionImagesHaveVelocitiesOverFrequency) {
+  // 1 at 300 m/s and 60 Hz, half of it at all velocities up to 100 Hz, nothing up to 500 Hz.
+  Spectra spectra{"a.nc", "amplitude", {}, {}, {}, Spectra::Place::phase_velocity};
+  for (int n = 0; n <= 500; ++n) spectra.frequencies_hz.push_back(n);
+  for (int j = 0; j < 200; ++j) {
+    spectra.places.push_back(100 + 4 * j);
+    spectra.lines.push_back({"vz", "m/s/Hz", std::vector<double>(501)});
+    for (int n = 0; n <= 100; ++n) spectra.lines.back().values[std::size_t(n)] = 0.5;
+  }
+  spectra.lines[50].values[60] = 1;
+  Look look;
+  look.colours = Limits{0, 1};
+  const auto pixels = decoded(draw_spectra({spectra}, false, look, page_of_size("1000x800px")).bytes);
+  const ColourMap map("uniform");
+  const auto patch_of = [&](double share) {
+    const auto colour = map.pixel(share) & 0xffffff;
+    Patch patch{0, 1000, -1, 800, -1};
+    for (int y = 0; y < 800; ++y)
+      for (int x = 0; x < 860; ++x)  // less the bar
+        if (pixels.at(x, y) == colour)
+          patch = {patch.count + 1, std::min(patch.left, x), std::max(patch.right, x), std::min(patch.top, y),
+                   std::max(patch.bottom, y)};
+    return patch;
+  };
+  const Patch half = patch_of(0.5), spot = patch_of(1);
+  ASSERT_GT(half.count, 10000);
+  ASSERT_GT(spot.count, 0);
+  // Frequencies from 0 rightwards, to 100.5 Hz where they are half; velocities from 98 to 898 m/s upwards.
+  const double per_hz = (half.right - half.left) / 100.5, per_speed = (half.bottom - half.top) / 800.0;
+  EXPECT_NEAR((spot.left + spot.right) / 2.0, half.left + 60 * per_hz, 3);
+  EXPECT_NEAR((spot.top + spot.bottom) / 2.0, half.bottom - 202 * per_speed, 3);
+}
+
 TEST_F(PlotSpectrum, AWavenumberStandsWhereItBelongsWithItsDecibels) {
   // 1 at k = 0.02 and f = 30, a hundredth (-40 dB) at k = -0.04 and f = 80, nothing elsewhere
   Spectra spectra{"a.nc", "amplitude", {}, {}, {}, Spectra::Place::wavenumber};
