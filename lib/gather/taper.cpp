@@ -26,6 +26,12 @@ TaperLengths parse_taper(std::string_view text) {
 }
 
 std::vector<double> taper_weights(const SampleAxis& axis, const TaperLengths& lengths) {
+  const double record_s = static_cast<double>(axis.count - 1) * axis.interval_s;
+  for (const double length_s : {lengths.start_s, lengths.end_s})
+    if (length_s > record_s * (1 + 1e-9))
+      throw Error("found a taper of " + shown(length_s) + " s, expected at most the " + shown(record_s) +
+                      " s of the traces",
+                  ErrorKind::usage);
   std::vector<double> weights;
   for (std::int64_t n = 0; n < axis.count; ++n) {
     const double since_s = static_cast<double>(n) * axis.interval_s;

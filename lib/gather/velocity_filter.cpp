@@ -82,6 +82,12 @@ FkFilter::FkFilter(const SampleAxis& axis, std::size_t receivers, double spacing
     : receivers_(receivers),
       spacing_m_(spacing_m),
       transform_(fast_transform_length(2 * receivers), fast_transform_length(2 * std::size_t(axis.count))) {
+  const double highest_per_m = 0.5 / spacing_m;
+  if (settings.wavenumbers_per_m && settings.wavenumbers_per_m->back() > highest_per_m)
+    throw Error("found K4 = " + shown(settings.wavenumbers_per_m->back()) +
+                    " 1/m, expected at most the Nyquist wavenumber " + shown(highest_per_m) +
+                    " 1/m of receivers every " + shown(spacing_m) + " m",
+                ErrorKind::usage);
   const std::size_t rows = transform_.rows(), bins = transform_.bins();
   const double step_per_m = 1 / (double(rows) * spacing_m);
   const double step_hz = 1 / (double(transform_.length()) * axis.interval_s);

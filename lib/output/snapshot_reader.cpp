@@ -45,7 +45,7 @@ void SnapshotReader<D>::check(const std::string& field) const {
   if (std::find(fields_.begin(), fields_.end(), field) != fields_.end()) return;
   std::string list;
   for (const auto& one : fields_) list += (list.empty() ? "" : ", ") + one;
-  throw Error(name() + ": found no field '" + field + "', it holds " + list);
+  throw Error(name() + ": found no field '" + field + "', it holds " + list, ErrorKind::usage);
 }
 
 template <int D>

@@ -258,6 +258,14 @@ void refuse_options_of_others(const PlotOptions& options, Kind kind, const std::
       {"--minus", !options.minus.empty(), {Kind::snapshots}},
       {"--slice", options.slice || options.through, fields},
       {"--survey", !options.survey.empty(), fields},
+      {"--gain-power", options.gather.gain_power != 0, {Kind::gather}},
+      {"--axis", options.gather.axis != TraceAxis::automatic, {Kind::gather}},
+      {"--style", options.gather.wiggle || !options.gather.density, {Kind::gather}},
+      {"--su", options.traces.su, {Kind::gather}},
+      {"--endian", options.traces.endian != "auto", {Kind::gather}},
+      {"--format", options.traces.format != "auto", {Kind::gather}},
+      {"--overlay", options.overlay, {Kind::gather, Kind::accuracy}},
+      {"--at", !options.at.empty(), {Kind::model}},
       {"--shot", options.shot.has_value(), {Kind::gather}},
       {"--difference", options.gather.difference, {Kind::gather}},
       {"--component", options.of.all || !options.of.components.empty(), {Kind::gather, Kind::spectra}},
@@ -288,8 +296,6 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
     if (input.file) history += input.history() + "\n";
   }
   const auto page = with_history(given, history);
-  if (!options.at.empty() && kind != Kind::model)
-    throw Error(shown_input(inputs.front().path) + ": holds no model, expected one for --at");
   refuse_options_of_others(options, kind, inputs.front().path);
   if (kind == Kind::gather) return gather_picture(inputs, options, page);
   if (kind == Kind::model) return model_picture(inputs.front(), options, page);
@@ -322,7 +328,7 @@ std::vector<std::string> draw_movie(const PlotOptions& options, const Progress& 
     throw Error("--fps: found " + shown(options.frames_per_s) + ", expected 0.1 to 240", ErrorKind::usage);
   auto input = open_input(options.files.empty() ? "-" : options.files.front(), options.traces.su);
   if (input.kind != Kind::snapshots)
-    throw Error(shown_input(input.path) + ": holds no snapshots, expected them for --movie");
+    throw Error(shown_input(input.path) + ": --movie does not apply to this kind of file", ErrorKind::usage);
   const bool wanted = names_movie(options.output);
   const auto page =
       with_history(wanted ? page_of(Format::png, options.page) : page_of(options), input.history());

@@ -194,7 +194,8 @@ void find_runs(const GatherSection& section, TracePlaces& places) {
   for (const auto component : components)
     list += (list.empty() ? "" : ", ") + std::string(name_of(component));
   throw Error(reader.name() + ": has no " + wanted + ", it holds " + list + " of shots " +
-              std::to_string(*shots.begin()) + " to " + std::to_string(*shots.rbegin()));
+                  std::to_string(*shots.begin()) + " to " + std::to_string(*shots.rbegin()),
+              ErrorKind::usage);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ Field<D> read_stored(const NetcdfFile& file, const Grid<D>& grid, const std::str
     const auto property = find_property(name);
     const bool optional = property && row_of(*property).if_absent;
     throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model" +
-                (optional ? " with it" : ""));
+                    (optional ? " with it" : ""),
+                optional ? ErrorKind::usage : ErrorKind::data);
   }
   if (file.variable(name).dimensions != field_dimensions<D>())
     throw Error(file.shown_name() + ": " + name + ": is not a field of z and x" +

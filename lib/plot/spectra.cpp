@@ -109,8 +109,9 @@ Spectra read_spectra(const NetcdfFile& file, const std::optional<Component>& com
   else
     read_means(file, component, spectra);
   if (spectra.lines.empty())
-    fail("holds no spectra" + (component ? " of " + std::string(name_of(*component)) : "") +
-         ", expected at least one");
+    throw Error(file.shown_name() + ": holds no spectra" +
+                    (component ? " of " + std::string(name_of(*component)) : "") + ", expected at least one",
+                component ? ErrorKind::usage : ErrorKind::data);
   return spectra;
 }
 

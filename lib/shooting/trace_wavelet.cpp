@@ -38,8 +38,9 @@ shape::Sampled read_trace(const std::string& path, std::int64_t number) {
   segy::Trace trace;
   if (reader.delivered() + 1 < number || !reader.next(trace))
     throw Error(path + ": found " + std::to_string(reader.delivered()) +
-                (reader.delivered() == 1 ? " trace" : " traces") + ", expected trace " +
-                std::to_string(number));
+                    (reader.delivered() == 1 ? " trace" : " traces") + ", expected trace " +
+                    std::to_string(number),
+                number > 1 ? ErrorKind::usage : ErrorKind::data);
   return in_place(path + ": trace " + std::to_string(number), [&] {
     check_finite(trace.samples);
     const auto axis = reader.axis_of(trace);
