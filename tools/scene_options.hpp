@@ -87,6 +87,7 @@ inline void declare_numerics(cli::Options& options, SceneOptions& s) {
                      "for the waves, too");
   options.add("cfl", s.cfl, "C", "Courant number: time step over h/vp_max");
   options.add("time-step", s.time_step_s, "S", "time step, s, instead of --cfl");
+  options.excludes("cfl", {"time-step"});
   // For who checks the program: the reference executor, slow and on one process.
   options.add_choice("executor", s.executor, {"tiled", "plain"}, cli::hidden);
 }

@@ -31,6 +31,7 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& s) {
   declare_scene(options, s.shot);
+  const auto of_scene = options.names();
   options.add_choice("case", s.built_in, {"full-space"},
                      "a built-in scene with a closed form, instead of a model");
   options.add("steps", s.steps, "LIST", "cell sizes, m [the model's and twice that]");
@@ -46,6 +47,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("error", s.wanted, "SHARE", "mark the cheapest setting with at most this error (0.01: 1 %)");
   options.add("output,o", s.output, "FILE", "also write the table here, as netCDF");
   options.add("json", s.json, "print the table as one JSON object");
+  options.excludes("case", of_scene, "the case is a scene of its own");
+  options.excludes("case", {"reference"}, "it has a closed form");
   options.add_threads();
   options.headings({{"case", "What is varied"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "case", "steps",

@@ -196,6 +196,7 @@ void compare(const Settings& settings, OpenPair& pair, const cli::Context& conte
   table.commit();
   for (auto& [component, part, comparison] : all)
     check_tolerance(settings, pair, component, parts[part], comparison.overall());
+  pair.warn_of_doubts(context);
   pair.expect_whole();
 }
 
@@ -221,6 +222,7 @@ void write_nrms(const Settings& settings, OpenPair& pair, const cli::Context& co
   }
   for (const auto& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  pair.warn_of_doubts(context);
   pair.expect_whole();
 }
 

@@ -46,6 +46,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.add_choice("input-endian", settings.input_endian, {"auto", "big", "little"},
                      "byte order of the input");
   options.add("input-su", settings.input_su, "read the input as Seismic Unix");
+  options.excludes("cube", {"area"});
 }
 
 int format_code(const std::string& option, const std::string& name) {
@@ -99,8 +100,6 @@ void refuse_with_su(const Settings& settings) {
 
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.su || segy::names_su(settings.output)) refuse_with_su(settings);
-  if (settings.cube && settings.area)
-    throw Error("found --cube and --area, expected one of them", ErrorKind::usage);
   const segy::ReadOptions options = read_options(settings);
   if (settings.format != "same") format_code("--format", settings.format);
   segy::Reader reader(settings.input, options);
@@ -135,6 +134,7 @@ void run(const Settings& settings, const cli::Context& context) {
   });
   for (const std::string& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  for (const auto& sentence : reader.doubts()) context.warn(sentence);
   reader.expect_whole();
 }
 

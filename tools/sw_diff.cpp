@@ -69,6 +69,7 @@ void run(const Settings& settings, const cli::Context& context) {
     subtract_numbers(pair, writer, after_each);
   for (const std::string& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  pair.warn_of_doubts(context);
   pair.expect_whole();
 }
 

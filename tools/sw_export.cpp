@@ -63,7 +63,8 @@ Exported<D> of_model(const NetcdfFile& file, const Settings& settings) {
   const auto& name = settings.property;
   if (const auto property = find_property(name)) {
     if (!model.medium.has(*property))
-      throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model with it");
+      throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model with it",
+                  ErrorKind::usage);
     auto values = model.medium[*property];
     // Formats of samples know no infinity.
     std::replace(values.begin(), values.end(), std::numeric_limits<float>::infinity(), elastic_quality);

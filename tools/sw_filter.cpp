@@ -54,6 +54,8 @@ void declare(cli::Options& options, Settings& settings) {
               "new sampling interval, s, by band-limited interpolation");
   options.add("gain", settings.gains, "GAIN",
               "power:P, exp:A, agc:T, rms, peak, scale:C or clip:C; repeat to chain gains");
+  options.needs("zero-delay", {"convolve"});
+  options.needs("reject", {"velocity", "wavenumber"});
   settings.input_options.declare(options);
 }
 
@@ -86,7 +88,6 @@ FkFilterSettings fk_settings_of(const Settings& settings) {
     fk.wavenumbers_per_m =
         in_place("--wavenumber", [&] { return parse_wavenumber_band(settings.wavenumber); });
   fk.reject = settings.reject;
-  if (fk.reject && !fk.any()) throw Error("--reject needs --velocity or --wavenumber", ErrorKind::usage);
   return fk;
 }
 
@@ -159,9 +160,11 @@ void check_interval(const Settings& settings, const segy::Reader& reader) {
         ErrorKind::usage);
 }
 
+bool has_signal(const segy::Trace& trace) {
+  return std::any_of(trace.samples.begin(), trace.samples.end(), [](double sample) { return sample != 0; });
+}
+
 void run(const Settings& settings, const cli::Context& context) {
-  if (settings.zero_delay && settings.wavelet.empty())
-    throw Error("--zero-delay needs --convolve", ErrorKind::usage);
   segy::Reader reader(settings.input, settings.input_options.to_damage());
   const SampleAxis& axis = reader.axis_with_interval();
   check_interval(settings, reader);
@@ -175,10 +178,16 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("filtering");
-  const auto put = [&](const segy::Trace& trace) { writer.write(trace, reader.header().su); };
+  bool any_left = false;
+  const auto put = [&](const segy::Trace& trace) {
+    any_left = any_left || has_signal(trace);
+    writer.write(trace, reader.header().su);
+  };
   ShotFilter shots(over_traces, filter.axis(), gains);
   segy::Trace trace;
+  bool any_signal = false;
   while (reader.next(trace)) {
+    any_signal = any_signal || has_signal(trace);
     in_place(reader.name() + ": trace " + std::to_string(reader.delivered()), [&] {
       const double start_s = reader.axis_of(trace).start_s;
       filter.apply(trace.samples, start_s);
@@ -193,7 +202,9 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   in_place(reader.name(), [&] { shots.finish(put); });
   for (const std::string& sentence : writer.finish()) context.warn(sentence);
+  if (any_signal && !any_left) context.warn(reader.name() + ": the filter leaves nothing but zeros");
   out.commit();
+  for (const auto& sentence : reader.doubts()) context.warn(sentence);
   reader.expect_whole();
 }
 

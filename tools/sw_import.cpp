@@ -95,6 +95,9 @@ void declare(cli::Options& options, Settings& settings) {
               "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
+  options.needs("order", {"shape"});
+  options.needs("no-average", {"resample"});
+  options.needs("fluid-vp", {"vs-from-vp"});
   options.common({"vp", "vs", "rho", "shape", "order", "step", "units", "vs-from-vp", "rho-from-vp",
                   "resample", "crop", "output"});
 }
@@ -216,6 +219,8 @@ ImportedField read_file(const Settings& settings, const std::string& given, cons
                         const NumberUnit& unit, std::string& history) {
   if (!settings.shape.empty()) {
     auto field = read_raw(settings, given);
+    if (unit.is_speed)
+      if (auto doubt = doubt_of_depth(field.values); !doubt.empty()) field.said.push_back(std::move(doubt));
     scale(field, unit.factor());
     return field;
   }

@@ -43,6 +43,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("json", settings.json, "one JSON object per file and line");
   options.add("command", settings.command,
               "print instead the command that makes each file again, on standard output");
+  options.excludes("json", {"command"});
   settings.traces.declare(options);
 }
 
@@ -94,6 +95,12 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   const InputStart start(path, 3600);
   const auto& first = start.bytes();
   if (begins_netcdf({first.data(), first.size()})) {
+    for (const auto& [given, option] :
+         {std::pair(options.su, "--su"), std::pair(options.endian.has_value(), "--endian"),
+          std::pair(options.format.has_value(), "--format")})
+      if (given)
+        throw Error(shown_input(path) + ": " + option + " does not apply to this kind of file",
+                    ErrorKind::usage);
     const auto file = start.is_regular() ? NetcdfFile::open(path)
                                          : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
     auto finding = look_at_netcdf(file);
@@ -112,8 +119,6 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
 }
 
 void run(const Settings& settings, const cli::Context&) {
-  if (settings.json && settings.command)
-    throw Error("found --json and --command, expected one of them", ErrorKind::usage);
   const segy::ReadOptions options = settings.traces.read_options();
   OutputFile out("-", OutputFile::Content::text);
   const auto print = [&](const std::string& text) { out.write(text.data(), text.size()); };

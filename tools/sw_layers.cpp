@@ -69,6 +69,10 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   options.common({"size", "step", "layer", "log", "fit", "units", "average", "output"});
   for (const char* name : {"size", "step"}) options.require(name);
+  for (const char* name : {"block", "backus", "vs-from-vp", "rho-from-vp"}) options.needs(name, {"log"});
+  options.needs("fluid-vp", {"vs-from-vp"});
+  options.excludes("block", {"backus"});
+  options.excludes("average", {"no-average"});
 }
 
 /// Of properties that no wave in a section meets.
@@ -84,18 +88,6 @@ void warn_of_three_dimensions(const std::vector<Layer>& layers, const cli::Conte
       }
 }
 
-void check_log_options(const Settings& settings) {
-  const auto refuse = [](const std::string& sentence) { throw Error(sentence, ErrorKind::usage); };
-  if (settings.layers.empty() && settings.log.empty())
-    refuse("--layer is missing; expected --layer DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]");
-  for (const auto& [given, name] :
-       {std::pair(settings.block_m.has_value(), "--block"), std::pair(settings.backus, "--backus"),
-        std::pair(!settings.vs_from.empty(), "--vs-from-vp"),
-        std::pair(!settings.rho_from.empty(), "--rho-from-vp")})
-    if (given && settings.log.empty()) refuse(std::string("found ") + name + " without --log, expected both");
-  if (settings.block_m && settings.backus) refuse("found --block and --backus, expected one of them");
-}
-
 /// Puts the log among the layers: below those whose tops are not deeper than its own.
 template <int D>
 void add_log(const Settings& settings, const InputUnits& units, std::vector<Layer>& layers,
@@ -106,6 +98,7 @@ void add_log(const Settings& settings, const InputUnits& units, std::vector<Laye
                          !settings.rho_from.empty(),
                          settings.fluid_vp,
                          settings.block_m,
+                         settings.limits,
                          settings.backus};
   const auto log = in_place("--log", [&] { return read_well_log(settings.log, choice); });
   auto layer = in_place(settings.block_m ? "--block" : "--log",
@@ -158,11 +151,14 @@ void build(const Settings& settings, const cli::Context& context) {
                    .fit = choice,
                    .average = settings.no_average ? Average::none : average,
                    .layers = layers};
-  // Files hold no profiles: what a log says is in the cells alone.
-  if (!settings.log.empty()) model.geology.layers.clear();
   model.medium =
       in_place("--layer", [&] { return layered_medium(fit.grid, layers, model.geology.average, fit.rows); });
   check(model, settings.limits);
+  if (model.medium.rho.empty() || std::all_of(model.medium.rho.begin(), model.medium.rho.end(),
+                                              [](float density) { return density == 0; }))
+    throw Error("--layer: found void in all cells, expected a layer that begins above the bottom, " +
+                    shown(grid.end(D - 1)) + " m",
+                ErrorKind::usage);
   if (D == 2) warn_of_three_dimensions(layers, context);
   if (!fit.summary.empty()) context.say(fit.summary);
   for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit says what to follow");
@@ -176,7 +172,9 @@ void build(const Settings& settings, const cli::Context& context) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  check_log_options(settings);
+  if (settings.layers.empty() && settings.log.empty())
+    throw Error("--layer is missing; expected --layer DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]",
+                ErrorKind::usage);
   if (split(settings.size, 'x').size() == 3) return build<3>(settings, context);
   build<2>(settings, context);
 }

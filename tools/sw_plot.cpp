@@ -62,16 +62,14 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
   options.add("interpolate", texts.interpolate, "linearly between cells wider than pixels");
   options.add("nearest", texts.nearest, "gather: no interpolation between traces");
+  options.excludes("range", {"clip"});
+  options.excludes("interpolate", {"nearest"});
+  options.excludes("movie", {"time"}, "a movie has all times");
+  options.excludes("at", {"property", "x", "y"}, "it draws all angles and frequencies of the rock there");
+  options.needs("q-frequency", {"at"});
+  options.needs("fps", {"movie"});
+  options.needs("difference-gain", {"difference"});
   texts.traces.declare(options);
-}
-
-/// What goes with --at alone, and what does not go with it.
-void check_at(const plot::PlotOptions& settings) {
-  if (settings.at.empty() && settings.reference_hz)
-    throw Error("--q-frequency goes with --at X,Z", ErrorKind::usage);
-  if (settings.at.empty()) return;
-  if (settings.look.x || settings.look.y)
-    throw Error("--at: draws all angles and frequencies, expected neither --x nor --y", ErrorKind::usage);
 }
 
 void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& context) {
@@ -86,7 +84,6 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   limits("--x", texts.x, settings.look.x);
   limits("--y", texts.y, settings.look.y);
   if (!texts.at.empty()) settings.at = in_place("--at", [&] { return parse_numbers(texts.at, ','); });
-  check_at(settings);
   if (texts.slice.find(',') != std::string::npos)
     settings.through = in_place("--slice", [&] { return parse_point<3>(texts.slice); });
   else if (!texts.slice.empty())
@@ -95,8 +92,6 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
     settings.of = in_place("--component", [&] { return plot::parse_components(texts.component); });
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))
     throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
-  if (texts.interpolate && texts.nearest)
-    throw Error("--interpolate and --nearest exclude each other", ErrorKind::usage);
   if (texts.interpolate || texts.nearest) settings.look.interpolate = texts.interpolate;
   settings.gather.axis = plot::trace_axis_named(texts.axis);
   if (settings.overlay && texts.style == "both")

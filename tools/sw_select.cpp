@@ -97,6 +97,7 @@ void run(const Settings& settings, const cli::Context& context) {
   for (const std::string& sentence : writer.finish()) context.warn(sentence);
   context.note(std::to_string(writer.written()) + " of " + std::to_string(reader.delivered()) + " traces");
   out.commit();
+  for (const auto& sentence : reader.doubts()) context.warn(sentence);
   reader.expect_whole();
 }
 

@@ -50,6 +50,16 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add("keep-unstable", s.output.keep_unstable,
               "keep the output of an unstable run, in files unstable-NAME");
   options.require("time");
+  options.excludes("error", {"order", "time-order", "cfl", "time-step"}, "it chooses them");
+  options.needs("of", {"error", "measure", "error-gather"});
+  options.needs("budget", {"error"});
+  options.needs("json", {"plan", "measure", "error"});
+  for (const char* name : {"every", "fields", "slice"}) options.needs(name, {"snapshots"});
+  for (const char* name : {"dt", "record", "revision"})
+    options.needs(name, {"receivers", "geometry", "inject"});
+  options.needs("output", {"receivers", "geometry", "inject", "plan"});
+  options.needs("checkpoint-every", {"checkpoint"});
+  options.needs("reverse", {"inject"});
   options.add_log();
   options.add_threads();
   options.headings(
@@ -62,6 +72,8 @@ void run(ShootingOptions& settings, const cli::Context& context) {
   settings.details = context.verbose;
   const Provenance provenance = {context.version, context.command_line};
   const auto ranks = started_ranks();
+  if (!ranks && settings.output.ranks_per_shot > 0)
+    context.warn("--ranks-per-shot has no effect without mpirun");
   if (!ranks) return shoot_survey(settings, provenance, context.messages());
   // A plan is made of the whole model, and by one process.
   if (settings.plan && ranks->number() > 0) return;

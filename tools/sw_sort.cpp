@@ -97,6 +97,7 @@ void run(const Settings& settings, const cli::Context& context) {
   sorter.deliver([&](const segy::RawTrace& sorted) { writer.write(sorted, reader.header().su); });
   for (const std::string& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  for (const auto& sentence : reader.doubts()) context.warn(sentence);
   reader.expect_whole();
   if (!damage.empty()) throw Error(damage + "; its whole traces were used");
 }

@@ -48,6 +48,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("pad", settings.spectrum.pad, "FACTOR",
               "zero padding: length of the transform over that of the trace (and line)");
   options.add("text", settings.text, "columns of numbers instead of netCDF");
+  options.excludes("fk", {"each"}, "a gather has one f-k spectrum");
+  options.needs("phase-velocity", {"fk"});
+  options.needs("velocities", {"phase-velocity"});
   settings.input_options.declare(options);
 }
 
@@ -124,11 +127,6 @@ void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, c
 }
 
 void run(Settings& settings, const cli::Context& context) {
-  if (settings.fk && settings.each)
-    throw Error("--fk and --each exclude each other: a gather has one f-k spectrum", ErrorKind::usage);
-  if (settings.phase_velocity && !settings.fk) throw Error("--phase-velocity needs --fk", ErrorKind::usage);
-  if (!settings.velocities.empty() && !settings.phase_velocity)
-    throw Error("--velocities needs --phase-velocity", ErrorKind::usage);
   settings.spectrum.window = window_named(settings.window);
   segy::Reader reader(settings.input, settings.input_options.to_damage());
   OutputFile out(settings.output, settings.text ? OutputFile::Content::text : OutputFile::Content::binary);
@@ -136,6 +134,7 @@ void run(Settings& settings, const cli::Context& context) {
     write_fk(reader, settings, out, context);
   else
     write_spectra(reader, settings, out, context);
+  for (const auto& sentence : reader.doubts()) context.warn(sentence);
   reader.expect_whole();
 }
 

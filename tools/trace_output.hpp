@@ -21,6 +21,7 @@ struct TraceOutput {
     options.add_choice("revision", revision, {"0", "1", "2"}, "revision of SEG-Y; 2 is written as 2.1");
     options.add_choice("endian", endian, {"big", "little"}, "byte order");
     options.add("su", su, "write Seismic Unix: the machine's byte order, no reel headers");
+    options.excludes("su", {"revision", "endian"}, "Seismic Unix has no revision, and the machine's order");
   }
 
   /// Of a file of that name: one that ends in .su is Seismic Unix.

@@ -37,6 +37,11 @@ struct OpenPair {
     a.expect_whole();
     b.expect_whole();
   }
+  /// Of both, once they were read.
+  void warn_of_doubts(const cli::Context& context) const {
+    for (const auto* reader : {&a, &b})
+      for (const auto& sentence : reader->doubts()) context.warn(sentence);
+  }
   OpenPair(const OpenPair&) = delete;
   OpenPair& operator=(const OpenPair&) = delete;
 

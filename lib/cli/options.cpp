@@ -106,8 +106,7 @@ void Options::add_choice(const std::string& name, std::string& to, std::vector<s
   option.shown_default = to;
   option.store = [&to, choices = std::move(choices)](const auto& values) {
     if (std::find(choices.begin(), choices.end(), values.back()) == choices.end()) {
-      throw Error("found '" + values.back() + "', expected one of " + joined(choices),
-                  ErrorKind::usage);
+      throw Error("found '" + values.back() + "', expected one of " + joined(choices), ErrorKind::usage);
     }
     to = values.back();
   };
@@ -131,6 +130,23 @@ void Options::require(const std::string& name) {
   for (auto& option : options_) option.required = option.required || option.name == name;
   for (auto& positional : positionals_)
     positional.required = positional.required || positional.placeholder == name;
+}
+
+void Options::needs(const std::string& name, const std::vector<std::string>& others) {
+  for (const auto& other : others) declared(other);
+  rules_.push_back({declared(name).name, others, false, ""});
+}
+
+void Options::excludes(const std::string& name, const std::vector<std::string>& others,
+                       const std::string& why) {
+  for (const auto& other : others) declared(other);
+  rules_.push_back({declared(name).name, others, true, why});
+}
+
+std::vector<std::string> Options::names() const {
+  std::vector<std::string> names;
+  for (const auto& option : options_) names.push_back(option.name);
+  return names;
 }
 
 void Options::positional(std::string& to, const std::string& placeholder) {

@@ -106,8 +106,10 @@ void Parser::parse(int argc, const char* const* argv) {
     }
   }
   if (common_.version) return;
+  in_force_ = own_;
   if (given_.count("config")) read_config();
   store();
+  check_rules();
 }
 
 void Parser::read_command_line(int argc, const char* const* argv) {
@@ -156,6 +158,7 @@ void Parser::read_command_line(int argc, const char* const* argv) {
       auto& values = given_[option.string_key];
       values.insert(values.end(), option.value.begin(), option.value.end());
       if (option.value.empty()) values.emplace_back();
+      own_.insert(option.string_key);
     }
     if (!option.string_key.empty())
       add_to_command_line(option.string_key, option.value, option.original_tokens);
@@ -221,18 +224,48 @@ void Parser::read_config() {
   }
   for (const auto& option : options_.options_) {
     const auto found = from_file.find(option.name);
-    if (found == from_file.end() || given_.count(option.name)) continue;
+    if (found == from_file.end() || given_.count(option.name) || is_excluded(option.name)) continue;
     in_place(path, [&] {
       if (!option.many && found->second.size() > 1) refuse(option.name + " is given twice, expected once");
       in_place(option.name, [&] { option.store(found->second); });
     });
     given_[option.name];  // present, already stored
+    if (!option.placeholder.empty() || truth_of(found->second.back())) in_force_.insert(option.name);
     for (const auto& value : found->second) {
       if (!option.placeholder.empty())
         add_to_command_line(option.name, {value}, {"--" + option.name + "=" + value});
       else if (truth_of(value))
         add_to_command_line(option.name, {}, {"--" + option.name});
     }
+  }
+}
+
+/// Whether the command line has an option that goes with no other of that name.
+bool Parser::is_excluded(const std::string& name) const {
+  return std::any_of(options_.rules_.begin(), options_.rules_.end(), [&](const auto& rule) {
+    if (!rule.excludes) return false;
+    const bool among = std::count(rule.others.begin(), rule.others.end(), name) > 0;
+    return (among && own_.count(rule.name)) ||
+           (rule.name == name && std::any_of(rule.others.begin(), rule.others.end(),
+                                             [&](const auto& other) { return own_.count(other) > 0; }));
+  });
+}
+
+void Parser::check_rules() const {
+  for (const auto& rule : options_.rules_) {
+    if (rule.excludes && in_force_.count(rule.name))
+      for (const auto& other : rule.others)
+        if (in_force_.count(other))
+          refuse("found --" + rule.name + " and --" + other + ", expected one of them" +
+                 (rule.why.empty() ? "" : ": " + rule.why));
+    if (rule.excludes || !own_.count(rule.name)) continue;
+    if (std::any_of(rule.others.begin(), rule.others.end(),
+                    [&](const auto& other) { return in_force_.count(other) > 0; }))
+      continue;
+    std::vector<std::string> shown;
+    for (const auto& other : rule.others) shown.push_back("--" + other);
+    refuse("found --" + rule.name + " without " + joined(shown, " or ") + ", expected " +
+           (shown.size() == 1 ? "both" : "one of them"));
   }
 }
 

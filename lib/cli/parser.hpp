@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,14 @@ struct Options::Positional {
   bool many = false;
   bool required = false;
   std::function<void(const std::vector<std::string>&)> store;
+};
+
+/// What goes with one option: it needs one of the others, or excludes all of them.
+struct Options::Rule {
+  std::string name;
+  std::vector<std::string> others;
+  bool excludes = false;
+  std::string why;
 };
 
 /// What every tool understands beside its own options.
@@ -62,6 +71,8 @@ class Parser {
   void read_config();
   void add_to_command_line(const std::string& name, const std::vector<std::string>& values,
                            const std::vector<std::string>& words);
+  void check_rules() const;
+  bool is_excluded(const std::string& name) const;
   void store();
   bool is_declared(const std::string& word) const;
   bool has_more() const;
@@ -73,6 +84,7 @@ class Parser {
   Options options_;
   CommonSettings common_;
   Values given_;
+  std::set<std::string> own_, in_force_;  // options of the command line, and those of the config file, too
   std::vector<std::string> arguments_;
   std::string command_line_;  // inputs first, then options of the command line and of the config file
 };

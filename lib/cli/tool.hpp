@@ -50,6 +50,14 @@ class Options {
   /// Must be given: its absence is a usage error. `name` of an option without its short form, or the
   /// placeholder of a positional argument. Options of which one must be given are the tool's own business.
   void require(const std::string& name);
+  /// `name` says nothing without one of `others`: on the command line alone it is a usage error. In the file
+  /// of --config, which several commands may share, it waits for a command that has one of them.
+  void needs(const std::string& name, const std::vector<std::string>& others);
+  /// `name` and any of `others` are a usage error, `why` in a few words; of one in the file of --config and
+  /// one on the command line the latter counts.
+  void excludes(const std::string& name, const std::vector<std::string>& others, const std::string& why = "");
+  /// Of all options declared so far.
+  std::vector<std::string> names() const;
   /// Headings of --help: each stands above the option named with it; those declared after that one are under
   /// it, too.
   void headings(const std::vector<std::pair<std::string, std::string>>& first_and_title);
@@ -69,6 +77,7 @@ class Options {
   friend class Parser;
   struct Option;
   struct Positional;
+  struct Rule;
   Options();
   ~Options();
   Option& declare(const std::string& name, const std::string& placeholder, const std::string& help);
@@ -76,6 +85,7 @@ class Options {
 
   std::vector<Option> options_;
   std::vector<Positional> positionals_;
+  std::vector<Rule> rules_;
   std::vector<std::string> passed_over_;
 };
 

@@ -31,7 +31,7 @@ struct Row {
 
 const std::vector<std::string> tables = {"accuracy", "compare", "convert", "diff",   "export",   "filter",
                                          "fracture", "import",  "info",    "layers", "marmousi", "options",
-                                         "plot",     "select",  "shoot",   "sort",   "spectrum"};
+                                         "pairs",    "plot",    "select",  "shoot",  "sort",     "spectrum"};
 
 /// Also where links lead in a circle.
 bool exists_as_file(const fs::directory_entry& entry) {

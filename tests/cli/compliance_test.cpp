@@ -231,7 +231,8 @@ TEST_F(Compliance, HasAResponseWhoseErrorIsMeasuredAndChosen) {
     EXPECT_FALSE(exists("no.sgy"));
   };
   refused("f.nc --error 0.1 --of Response", 2, "--of: found 'Response', expected traces or response");
-  refused("f.nc --of response", 2, "--of response needs --error, --measure or --error-gather");
+  refused("f.nc --of response", 2,
+          "found --of without --error, --measure or --error-gather, expected one of them");
   refused("m.nc --error 0.1 --of response", 2, "--of response: found no fractures in the model");
   EXPECT_TRUE(has(done("sw-shoot f.nc" + shot + "-q --plan --measure --of response"),
                   "% of what fractures add to the traces"));

@@ -6,6 +6,7 @@
 namespace {
 
 using Options = Shell;
+using OptionPairs = Shell;
 
 const std::string layers = "sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 ";
 
@@ -101,4 +102,59 @@ TEST_F(Options, BinaryOutputToATerminalIsRefused) {
       ran.out.find("standard output is a terminal and the output is binary; expected -o FILE or a pipe"),
       std::string::npos)
       << ran.out;
+}
+
+TEST_F(OptionPairs, OfAModelThatGivesThemNothingToDoAreWarnedOf) {
+  done("sw-layers --size 200x100 --step 5 --layer 0:2000:1000:2000 -o m.nc");
+  const std::string shoot =
+      "sw-shoot m.nc --source 100,50 --wavelet ricker:15 --receivers 50,50 --time 0.1 -o a.sgy ";
+  // A row a pair: an option, and what it has no effect beside.
+  const std::pair<const char*, const char*> rows[] = {
+      {"--correction first", "--correction has no effect: nothing in the scene slips"},
+      {"--q-frequency 20", "--q-frequency has no effect: no cell of the model has a finite qp or qs"},
+      {"--q-band 5,20", "--q-band has no effect: no cell of the model has a finite qp or qs"},
+      {"--q-mechanisms 4", "--q-mechanisms has no effect: no cell of the model has a finite qp or qs"},
+      {"--top rigid --sides free --bottom free --edge-width 5",
+       "--edge-width has no effect: no boundary is absorbing"},
+      {"--without slip", "--without slip has no effect: the model has none"},
+      {"--without friction", "--without friction has no effect: the model has none"},
+      {"--without viscosity", "--without viscosity has no effect: the model has none"},
+      {"--without cohesion", "--without cohesion has no effect: the model has none"},
+      {"--without opening", "--without opening has no effect: the model has none"},
+      {"--without prestress", "--without prestress has no effect: the model has none"},
+      {"--without attenuation", "--without attenuation has no effect: the model has none"},
+      {"--without anisotropy", "--without anisotropy has no effect: the model has none"},
+      {"--without compliance", "--without compliance has no effect: the model has none"},
+      {"--ranks-per-shot 2", "--ranks-per-shot has no effect without mpirun"}};
+  for (const auto& [options, sentence] : rows)
+    EXPECT_EQ(run(shoot + options).err, "sw-shoot: warning: " + std::string(sentence) + "\n") << options;
+  done(
+      "sw-layers --size 200x100 --step 5 --layer '0:2000:1000:2000 qp=50 qs=30 epsilon=0.1 delta=0.1' -o "
+      "m.nc");
+  EXPECT_EQ(run(shoot + "--without attenuation --q-frequency 20").err,
+            "sw-shoot: warning: --q-frequency has no effect beside --without attenuation\n");
+  for (const char* options : {"--without attenuation", "--without anisotropy", "--q-frequency 20"})
+    EXPECT_EQ(run(shoot + options).err, "") << options;
+}
+
+TEST_F(OptionPairs, InAFileOfOptionsWaitOrGiveWay) {
+  done("sw-layers --size 200x100 --step 5 --layer 0:2000:1000:2000 -o m.nc");
+  const std::string shoot = "sw-shoot m.nc --config shot.cfg ";
+  const std::string shot =
+      "source = 100,50\nwavelet = ricker:15\nreceivers = 50,50\ntime = 0.1\noutput = a.sgy\n";
+  // What is idle there may be for another command.
+  write("shot.cfg", shot + "every = 0.05\nfields = vx\nbalance = false\n");
+  done(shoot);
+  done(shoot + "--snapshots s.nc && test -s s.nc");
+  // The command line wins over what it excludes.
+  write("shot.cfg", shot + "time-step = 0.0005\n");
+  done(shoot + "--cfl 0.5");
+  EXPECT_EQ(done("sw-info --command a.sgy").find("time-step"), std::string::npos);
+  // Two in the file contradict each other still.
+  write("shot.cfg", shot + "time-step = 0.0005\ncfl = 0.5\n");
+  expect_refused(shoot, 2, "sw-shoot: found --cfl and --time-step, expected one of them");
+  // A switch that is off is none.
+  write("shot.cfg", shot + "plan = false\n");
+  expect_refused(shoot + "--json", 2,
+                 "sw-shoot: found --json without --plan, --measure or --error, expected one of them");
 }

@@ -252,9 +252,9 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
           "--size: found '5x5', expected WIDTHxHEIGHT with cm or px behind it");
   refused("m.nc --range 5:3 -o x.png", 2, "--range: found '5:3', expected LOW:HIGH with LOW below HIGH");
   refused("m.nc --x 900:1000 -o x.png", 2, "--x: found 900:1000, the data run from 0 to 600");
-  refused("g.sgy --component vx -o x.png", 1, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
-  refused("g.sgy --shot 9 -o x.png", 1, "g.sgy: has no trace of shot 9, it holds vz, p of shots 1 to 1");
-  refused("s.nc --field div -o x.png", 1, "s.nc: found no field 'div', it holds p, vz");
+  refused("g.sgy --component vx -o x.png", 2, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
+  refused("g.sgy --shot 9 -o x.png", 2, "g.sgy: has no trace of shot 9, it holds vz, p of shots 1 to 1");
+  refused("s.nc --field div -o x.png", 2, "s.nc: found no field 'div', it holds p, vz");
   refused("m.nc g.sgy -o x.png", 2,
           "m.nc: several files can be drawn together only if all hold gathers, all spectra or all errors");
   refused("g.sgy --component p --difference -o x.png", 2,
@@ -267,12 +267,13 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
   refused("g.sgy --component p,p -o x.png", 2, "--component: found p twice, expected it once");
   refused("g.sgy --component p,vz --overlay --style wiggle -o x.png", 2,
           "--overlay: found components in Pa and in m/s, expected one unit; choose a --component");
-  refused("m.nc --nearest --interpolate -o x.png", 2, "--interpolate and --nearest exclude each other");
+  refused("m.nc --nearest --interpolate -o x.png", 2,
+          "found --interpolate and --nearest, expected one of them");
   refused("s.nc --movie x.mp4 -o y.mp4", 2, "--movie: found x.mp4 and -o y.mp4, expected one of them");
   refused("s.nc -o x.mp4", 2,
           "--output: found 'x.mp4', expected a name that ends with .png, .pdf or .svg, or --movie");
   refused("s.nc --movie x.mp4 --fps 0", 2, "--fps: found 0, expected 0.1 to 240");
-  refused("m.nc --movie -o x.png", 1, "m.nc: holds no snapshots, expected them for --movie");
+  refused("m.nc --movie -o x.png", 2, "m.nc: --movie does not apply to this kind of file");
   refused("s.nc --movie", 2,
           "--movie: draws one file of snapshots, and needs a name (-o NAME.mp4 or NAME.png)");
 }

@@ -188,7 +188,8 @@ assert plan["processor_time"]["value"] > 0 and plan["memory_of_a_shot"]["unit"] 
 assert any("slip" in part for part in plan["part_of_step"]), plan
 )");
   done(shoot + at + "--plan --json | python3 check.py");
-  expect_refused(shoot + at + "--json -o out.sgy", 2, "sw-shoot: --json needs --plan, --measure or --error");
+  expect_refused(shoot + at + "--json -o out.sgy", 2,
+                 "sw-shoot: found --json without --plan, --measure or --error, expected one of them");
 }
 
 TEST_F(ShootOptions, HelpFitsAScreenAndTheRestIsInHelpAll) {

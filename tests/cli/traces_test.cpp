@@ -38,6 +38,40 @@ TEST_F(Traces, GoThroughAllToolsInOnePipe) {
   EXPECT_EQ(files(), "line.sgy m.nc out.sgy");
 }
 
+TEST_F(Traces, ContradictionsOfHeadersAndSamplesAreWarnedOf) {
+  const auto changed = [&](const std::string& from, const std::string& to, int at, const std::string& bytes) {
+    done("cp " + from + " " + to + "; printf '" + bytes + "' | dd of=" + to +
+         " bs=1 conv=notrunc status=none seek=" + std::to_string(at));
+  };
+  const auto said = [&](const std::string& line) { return run(line).err; };
+  const auto info = [&](const std::string& file) { return done("sw-info " + file); };
+  EXPECT_FALSE(has(info("line.sgy"), "doubt"));
+  EXPECT_EQ(said("sw-spectrum line.sgy -o s.nc"), "");
+  // 2 ms in the header of the third trace of 401 samples, 1 ms in that of the file.
+  changed("line.sgy", "slow.sgy", 3600 + 2 * (240 + 4 * 401) + 116, "\\007\\320");
+  const std::string interval =
+      "slow.sgy: trace 3 says 0.002 s between samples (byte 117), taken are the 0.001 s of "
+      "the file header (byte 3217)";
+  EXPECT_TRUE(has(info("slow.sgy"), "doubt            " + interval)) << info("slow.sgy");
+  for (const std::string line :
+       {"sw-spectrum slow.sgy -o s.nc", "sw-filter slow.sgy --taper 0.1 -o f.sgy",
+        "sw-sort slow.sgy --key tracl -o f.sgy", "sw-convert slow.sgy -o f.sgy",
+        "sw-select slow.sgy --where 'shot>0' -o f.sgy", "sw-diff line.sgy slow.sgy -o d.sgy",
+        "sw-compare slow.sgy line.sgy --summary -o c.txt"})
+    EXPECT_EQ(said(line), line.substr(0, line.find(' ')) + ": warning: " + interval + "\n") << line;
+  // Floating point of the other kind than the file header says.
+  done("sw-convert line.sgy --format ibm -o ibm.sgy");
+  EXPECT_FALSE(has(info("ibm.sgy"), "doubt"));
+  changed("ibm.sgy", "ieee.sgy", 3224, "\\0\\005");
+  EXPECT_TRUE(has(info("ieee.sgy"),
+                  "ieee.sgy: samples are called IEEE floating point (format code 5) and look like IBM"));
+  EXPECT_FALSE(has(done("sw-info --format ibm ieee.sgy"), "doubt"));
+  changed("line.sgy", "ibm.sgy", 3224, "\\0\\001");
+  EXPECT_TRUE(has(info("ibm.sgy"),
+                  "ibm.sgy: samples are called IBM floating point (format code 1) and look like IEEE"));
+  EXPECT_TRUE(has(said("sw-spectrum ibm.sgy -o s.nc"), "look like IEEE"));
+}
+
 TEST_F(Traces, SelectedOnesAndTheOthersAreAllThereAre) {
   done("sw-select line.sgy --where 'component=vz,p and shot=2:' -o a.sgy");
   done("sw-select line.sgy --where 'not (component=vz,p and shot=2:)' -o b.sgy");

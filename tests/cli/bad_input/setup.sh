@@ -61,6 +61,15 @@ lines() { file=$1; shift; printf '%s\n' "$@" > "$file"; }
 lines two.txt '0 0' '10 10 # no third'
 lines word.txt '0 0' '10 ten' '10 0'
 lines well.txt 'DEPTH.M VP.M/S' '20 3000' '22 3050' '24 2990'
+lines nulls.txt 'DEPTH.M VP.M/S VS.M/S RHO.G/CC' '0 2000 1000 2.1' '10 2100 9999 2.1' '20 2100 1000 2.1'
+lines heights.txt 'DEPTH.M VP.M/S VS.M/S RHO.G/CC' '-10 2000 1000 2.1' '-20 2100 1000 2.1' '-30 2100 1000 2.1'
+las() { # FILE DEPTH CURVE ROW
+  lines "$1" '~Version' ' VERS. 2.0 : v' ' WRAP. NO : w' '~Well' " STRT.$2 100 : s" '~Curve' ' DEPT.FT : d' \
+    ' DT.US/FT : p' " $3 : s" ' RHOB.G/CC : r' '~A' "$4" '110 100 200 2.2'
+}
+las shifted.las FT DTS.US/FT '100 100 200'
+las units.las M DTS.US/FT '100 100 200 2.2'
+las twice.las FT DT.US/FT '100 100 200 2.2'
 lines three.txt '0 0' '10 10 10' '10 0'
 lines bow.txt '0 0' '100 100' '100 0' '0 100'
 lines line.txt '0 0' '50 50' '100 100'
