@@ -14,6 +14,7 @@
 #include "model/model_netcdf.hpp"
 #include "planning/measured.hpp"
 #include "planning/measured_error.hpp"
+#include "planning/wanted_error.hpp"
 #include "scene_options.hpp"
 
 using namespace slipwave;
@@ -224,8 +225,7 @@ void measure(const Settings& s, const Scene<D>& scene, const cli::Context& conte
 }
 
 void run(const Settings& s, const cli::Context& context) {
-  if (s.wanted && !(*s.wanted > 0))
-    throw Error("--error: found " + shown(*s.wanted) + ", expected it above 0", ErrorKind::usage);
+  if (s.wanted) check_wanted_error(*s.wanted);
   expect_other_files(s.output, {s.shot.model});
   if (!s.built_in.empty()) {
     if (s.shot.model != "-") throw Error("--case needs no model, found " + s.shot.model, ErrorKind::usage);

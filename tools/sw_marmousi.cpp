@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
@@ -60,6 +62,10 @@ void run(const Settings& settings, const cli::Context& context) {
                    .average = settings.no_average ? Average::none : Average::isotropic,
                    .marmousi = geology};
   check(model);
+  if (std::all_of(model.medium.vs.begin(), model.medium.vs.end(), [](float speed) { return speed == 0; }))
+    throw Error("--water: found " + shown(geology.water_m) + ", expected a sea that ends above the bottom, " +
+                    shown(size[1]) + " m",
+                ErrorKind::usage);
   if (!fit.summary.empty()) context.say(fit.summary);
   for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit none follows nothing");
   model.title = settings.title;

@@ -209,7 +209,11 @@ ImportedField field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, 
     grid.origin_m[axis] = axes[axis].lowest_m() - grid.spacing_m / 2;
     if (std::abs(grid.origin_m[axis]) < 1e-4 * grid.spacing_m) grid.origin_m[axis] = 0;
   }
-  const bool names_unit = !file.text_attribute(variable.name, "units").value_or("").empty();
+  const auto units = file.text_attribute(variable.name, "units").value_or("");
+  const bool names_unit = !units.empty();
+  if (names_unit && unnamed != 1)
+    field.said.push_back(variable.name + " is in " + excerpt(units) +
+                         ", as the file says; --units is of numbers that name no unit");
   const auto conversion =
       names_unit ? conversion_of(file, variable.name, row.units) : UnitConversion{unnamed, 0, false};
   field.values = Field<3>(grid);

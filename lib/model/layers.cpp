@@ -549,16 +549,23 @@ template <int D>
 std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers) {
   std::vector<std::string> sentences;
   const std::int64_t lines = different_lines(grid, layers);
-  const auto reaches_into = [&](const Layer& layer) {
+  const auto highest = [&](const Layer& layer) {
+    double least = std::numeric_limits<double>::infinity();
     for (std::int64_t line = 0; line < lines; ++line)
       for (std::int64_t n = 0; n < grid.shape[0]; ++n)
-        if (layer.top.at(grid.centre(0, n), y_of(grid, line)) < grid.end(D - 1)) return true;
-    return false;
+        least = std::min(least, layer.top.at(grid.centre(0, n), y_of(grid, line)));
+    return least;
   };
   for (const auto& layer : layers)
-    if (!reaches_into(layer))
+    if (highest(layer) >= grid.end(D - 1))
       sentences.push_back("the layer at " + layer.top.name() + " begins below the model, which ends at " +
                           shown(grid.end(D - 1)) + " m");
+  // Heights, or a number for no value.
+  if (!layers.empty() && !layers.front().top.is_plane())
+    if (const double least = highest(layers.front()); least < grid.origin_m[D - 1])
+      sentences.push_back("the layer at " + layers.front().top.name() + " begins up to " +
+                          shown(grid.origin_m[D - 1] - least, 6) +
+                          " m above the model, whose top cuts it off: depths count downwards");
   for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
     constexpr double far = std::numeric_limits<double>::infinity();
     Point<2> from{far, far}, to{-far, -far};  // x and y of the columns where it is cut off

@@ -102,8 +102,8 @@ template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers,
                          Average average = Average::isotropic, const std::vector<std::int64_t>& rows = {});
 
-/// Where a sine or a curve cuts off a layer in a part of the model, and layers that lie below all of it: a
-/// sentence for each.
+/// Where a sine or a curve cuts off a layer in a part of the model, layers that begin below it and a first
+/// one that begins above it: a sentence for each.
 template <int D>
 std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers);
 

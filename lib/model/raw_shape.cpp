@@ -2,6 +2,7 @@
 #include "model/raw_shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -95,29 +96,32 @@ std::string shape_of(const Grid<D>& grid) {
 // What counts as clearly more; noise differs by some tenths.
 constexpr double much = 2;
 
-/// Of a volume: lines along y, and the two slower axes the other way round. Next to a slice of the right size
-/// is its neighbour.
-void check_slow_axes(const std::vector<char>& bytes, const Grid<3>& grid, FastAxis fast, double unlike) {
-  const auto refuse = [&](const std::string& found) {
-    throw Error("found " + shape_of(grid) + " in the order " + name_of(fast) + ", in which " + found +
-                    "; expected x slowest and z fastest, or with --order x-fast z slowest and x fastest, or "
-                    "--allow-rough to take it as it is",
-                ErrorKind::usage);
+/// Of a volume: whether values are much more like what another order of its axes has next to them along those
+/// where the two orders have other neighbours.
+void check_neighbours(const std::vector<char>& bytes, const Grid<3>& grid, FastAxis fast) {
+  using Axes = std::array<std::size_t, 3>;  // the slowest first
+  const auto distances = [&](const Axes& axes) {
+    const std::int64_t line = grid.shape[axes[2]];
+    return std::array{line, line * grid.shape[axes[1]]};
   };
-  const auto [nx, ny, nz] = grid.shape;
-  const std::int64_t lines = fast == FastAxis::z ? nz : nx, slices = fast == FastAxis::z ? nx : nz;
-  const double along_y = ny == lines ? unlike : roughness(bytes, ny).unlike;
-  if (unlike > much * along_y)
-    refuse("neighbouring lines of " + std::to_string(lines) +
-           " values do not continue each other: steps along "
-           "them differ by " +
-           shown(unlike, 3) + " in the mean, along lines of " + std::to_string(ny) + " values by " +
-           shown(along_y, 3));
-  if (ny == slices) return;
-  const double given = difference_over(bytes, lines * ny), exchanged = difference_over(bytes, lines * slices);
-  if (given > much * exchanged)
-    refuse("values change by " + shown(given, 3) + " from slice to slice of " + times(lines, ny) +
-           ", but by " + shown(exchanged, 3) + " from one of " + times(lines, slices) + " to the next");
+  const auto name = [](const Axes& of) { return std::string{"xyz"[of[0]], "xyz"[of[1]], "xyz"[of[2]]}; };
+  const Axes given = fast == FastAxis::z ? Axes{0, 1, 2} : Axes{2, 1, 0};
+  Axes axes = {0, 1, 2};
+  do {
+    double as_given = 0, otherwise = 0;
+    for (const std::size_t n : {0, 1}) {
+      const auto one = distances(given)[n], other = distances(axes)[n];
+      if (one == other) continue;
+      as_given += difference_over(bytes, one);
+      otherwise += difference_over(bytes, other);
+    }
+    if (!(as_given > much * otherwise)) continue;
+    throw Error("found " + shape_of(grid) + " in the order " + name_of(fast) + ", " + name(given) +
+                    " with the slowest axis first, in which neighbours differ by " + shown(as_given, 3) +
+                    ", in the order " + name(axes) + " by " + shown(otherwise, 3) +
+                    "; expected xyz, or zyx with --order x-fast, or --allow-rough to take it as it is",
+                ErrorKind::usage);
+  } while (std::next_permutation(axes.begin(), axes.end()));
 }
 
 }  // namespace
@@ -144,7 +148,7 @@ void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAx
                " values by " + shown(exchanged.unlike, 3),
            true);
   if constexpr (D == 3)
-    if (grid.shape[1] >= fewest) check_slow_axes(bytes, grid, fast, as_given.unlike);
+    if (grid.shape[1] >= fewest) check_neighbours(bytes, grid, fast);
   if (as_given.unlike < undecided * exchanged.unlike) return;
   if (given != other && exchanged.jump > far_more * std::max(1., as_given.jump))
     refuse(std::string("the ends of ") + lines + " are no ends: values jump after each " +

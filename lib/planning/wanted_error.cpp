@@ -201,6 +201,14 @@ class Search {
 
 }  // namespace
 
+void check_wanted_error(double share) {
+  if (!(share > 0)) throw Error("--error: found " + shown(share) + ", expected it above 0", ErrorKind::usage);
+  if (share >= 1)
+    throw Error("--error: found " + shown(share) + ", expected a share below 1: " + shown(share / 100) +
+                    " is " + shown(share) + " %",
+                ErrorKind::usage);
+}
+
 template <int D>
 ReachedError reach_error(SceneRuns<D>& runs, double wanted, const SearchLimits& limits,
                          const std::function<void(const std::string&)>& say) {

@@ -8,6 +8,9 @@
 
 namespace slipwave {
 
+/// Throws a usage Error of --error on what is no share between 0 and 1, as percent.
+void check_wanted_error(double share);
+
 /// What the search for a setting may use.
 struct SearchLimits {
   double memory_bytes = 0;  // of a shot

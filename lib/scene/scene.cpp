@@ -77,20 +77,23 @@ void check_positive(double value, const char* what, const char* unit) {
                 ErrorKind::usage);
 }
 
-/// They are counted in whole numbers; more would never end.
 /// What is longer than all of the time would leave its beginning alone.
-void check_within(double duration_s, const char* what, double interval_s) {
-  if (interval_s <= duration_s) return;
+void check_within(const Recording& recording, const char* what, double interval_s) {
+  if (interval_s <= recording.duration_s - recording.before_s) return;
   throw Error("found " + std::string(what) + " of " + shown(interval_s) + " s, expected at most --time, " +
-                  shown(duration_s) + " s",
+                  shown(recording.duration_s - recording.before_s, 9) + " s",
               ErrorKind::usage);
 }
 
-void check_count(double duration_s, const char* what, double interval_s, const char* counted) {
+/// They are counted in whole numbers; more would never end.
+void check_count(const Recording& recording, const char* what, double interval_s, const char* counted) {
   constexpr double most = std::numeric_limits<std::int32_t>::max();
-  if (duration_s / interval_s < most) return;
-  throw Error("found --time of " + shown(duration_s) + " s and " + what + " of " + shown(interval_s) +
-                  " s, expected at most " + std::to_string(std::int64_t(most)) + ' ' + counted,
+  if (recording.duration_s / interval_s < most) return;
+  const double before_s = recording.before_s;
+  throw Error("found --time of " + shown(recording.duration_s - before_s, 9) + " s" +
+                  (before_s > 0 ? ", a delay of a source of " + shown(-before_s) + " s" : "") + " and " +
+                  what + " of " + shown(interval_s) + " s, expected at most " +
+                  std::to_string(std::int64_t(most)) + ' ' + counted,
               ErrorKind::usage);
 }
 
@@ -303,12 +306,12 @@ void check(const Scene<D>& scene) {
   if (scene.recording.fibre) placing(scene.survey, [&] { check_fibre(scene); });
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");
-  check_count(scene.recording.duration_s, "--dt", scene.recording.interval_s, "samples");
-  check_within(scene.recording.duration_s, "--dt", scene.recording.interval_s);
+  check_count(scene.recording, "--dt", scene.recording.interval_s, "samples");
+  check_within(scene.recording, "--dt", scene.recording.interval_s);
   if (scene.snapshot_every_s) {
     check_positive(*scene.snapshot_every_s, "--every", "s");
-    check_count(scene.recording.duration_s, "--every", *scene.snapshot_every_s, "snapshots");
-    check_within(scene.recording.duration_s, "--every", *scene.snapshot_every_s);
+    check_count(scene.recording, "--every", *scene.snapshot_every_s, "snapshots");
+    check_within(scene.recording, "--every", *scene.snapshot_every_s);
   }
   const auto& numerics = scene.numerics;
   if (!holds(orders, numerics.order))
@@ -336,7 +339,7 @@ void check(const Scene<D>& scene) {
                     ": h/vp_max is " + shown(limit) + " s",
                 ErrorKind::usage);
   }
-  check_count(scene.recording.duration_s, "a time step", time_step_s(scene), "steps");
+  check_count(scene.recording, "a time step", time_step_s(scene), "steps");
 }
 
 template <int D>

@@ -61,8 +61,8 @@ std::vector<std::string> timing_warnings(const Scene<D>& scene) {
   if (unreached.traces == 0) return {};
   return {"no wave can have reached " + std::to_string(unreached.traces) + " of " +
           std::to_string(unreached.of) + " receivers by the end of the record (--time " +
-          shown(scene.recording.duration_s - scene.recording.before_s) + "); the farthest needs at least " +
-          shown(unreached.needed_s - scene.recording.before_s, 3) + " s"};
+          shown(scene.recording.duration_s - scene.recording.before_s, 9) +
+          "); the farthest needs at least " + shown(unreached.needed_s - scene.recording.before_s, 3) + " s"};
 }
 
 template std::vector<std::string> timing_warnings(const Scene<2>&);

@@ -179,8 +179,7 @@ void check_measuring(const ShootingOptions& options) {
   const auto usage = [](const std::string& sentence) { throw Error(sentence, ErrorKind::usage); };
   if (options.error_of != "traces" && options.error_of != "response")
     usage("--of: found '" + options.error_of + "', expected traces or response");
-  if (options.wanted_error && !(*options.wanted_error > 0))
-    usage("--error: found " + shown(*options.wanted_error) + ", expected it above 0");
+  if (options.wanted_error) check_wanted_error(*options.wanted_error);
   if (options.wanted_error && options.plan)
     usage(
         "found --plan with --error, which runs the scene to choose; --plan --measure measures its own "

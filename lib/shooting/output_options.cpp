@@ -48,8 +48,9 @@ void OutputOptions::check_sampling(const Recording& recording,
   try {
     segy::checked_format(info);
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) + " (--time " + shown(recording.duration_s - recording.before_s) +
-                    ", --dt " + shown(recording.interval_s) + "; " +
+    throw Error(std::string(error.what()) + " (--time " +
+                    shown(recording.duration_s - recording.before_s, 9) + ", --dt " +
+                    shown(recording.interval_s) + "; " +
                     (info.format.su ? "name the output .sgy" : "--revision 2, or a longer --dt") + ")",
                 ErrorKind::usage);
   }

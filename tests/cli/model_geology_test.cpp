@@ -55,6 +55,21 @@ TEST_F(ModelGeology, OfLayersFollowsGridsInThreeDimensions) {
   EXPECT_TRUE(has(piped, "void cells    500\n")) << piped;
 }
 
+TEST_F(ModelGeology, OfLayersWarnsOfTopsBeyondTheModel) {
+  const std::string line = "sw-layers --size 100x50 --step 5 -o m.nc ";
+  const std::string meant = "; if that is not meant, change the --layer\n";
+  write("heights.txt", "0 -50\n100 -70\n");
+  EXPECT_EQ(
+      run(line + "--layer @heights.txt:2000:1000:2000").err,
+      "sw-layers: warning: the layer at @heights.txt begins up to 69.5 m above the model, whose top cuts "
+      "it off: depths count downwards" +
+          meant);
+  EXPECT_EQ(run(line + "--layer 0:1500:0:1000 --layer 50:2000:1000:2000").err,
+            "sw-layers: warning: the layer at 50 m begins below the model, which ends at 50 m" + meant);
+  EXPECT_EQ(run(line + "--layer 0:1500:0:1000 --layer 20:2000:1000:2000:30").err.find("begins"),
+            std::string::npos);
+}
+
 TEST_F(ModelGeology, OfLayersWarnsWhereACurveCutsALayerOff) {
   const std::string line =
       "sw-layers --size 1000x500 --step 10 --layer 0:1500:0:1000 --layer 200:2000:1000:2000 --layer "

@@ -137,6 +137,14 @@ TEST_F(OptionPairs, OfAModelThatGivesThemNothingToDoAreWarnedOf) {
     EXPECT_EQ(run(shoot + options).err, "") << options;
 }
 
+TEST_F(OptionPairs, OfUnitsThatFilesNameThemselvesAreToldOf) {
+  done("sw-layers --size 200x100 --step 5 --layer 0:2000:1000:2000 -o m.nc");
+  EXPECT_EQ(run("sw-import --vp m.nc --vs m.nc --rho m.nc --units km/s -o n.nc").err,
+            "sw-import: m.nc: vp is in m s-1, as the file says; --units is of numbers that name no unit\n"
+            "sw-import: m.nc: vs is in m s-1, as the file says; --units is of numbers that name no unit\n");
+  done("sw-import --vp m.nc --vs m.nc --rho 2.1 --units g/cm3 -o n.nc");
+}
+
 TEST_F(OptionPairs, InAFileOfOptionsWaitOrGiveWay) {
   done("sw-layers --size 200x100 --step 5 --layer 0:2000:1000:2000 -o m.nc");
   const std::string shoot = "sw-shoot m.nc --config shot.cfg ";

@@ -70,6 +70,7 @@ las() { # FILE DEPTH CURVE ROW
 las shifted.las FT DTS.US/FT '100 100 200'
 las units.las M DTS.US/FT '100 100 200 2.2'
 las twice.las FT DT.US/FT '100 100 200 2.2'
+lines early.csv 'x,z,delay' '100,50,-1e9'
 lines three.txt '0 0' '10 10 10' '10 0'
 lines bow.txt '0 0' '100 100' '100 0' '0 100'
 lines line.txt '0 0' '50 50' '100 100'
