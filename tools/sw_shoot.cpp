@@ -55,8 +55,6 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.needs("budget", {"error"});
   options.needs("json", {"plan", "measure", "error"});
   for (const char* name : {"every", "fields", "slice"}) options.needs(name, {"snapshots"});
-  for (const char* name : {"dt", "record", "revision"})
-    options.needs(name, {"receivers", "geometry", "inject"});
   options.needs("output", {"receivers", "geometry", "inject", "plan"});
   options.needs("checkpoint-every", {"checkpoint"});
   options.needs("reverse", {"inject"});

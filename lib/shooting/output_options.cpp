@@ -131,6 +131,7 @@ void OutputOptions::check_scene(const Scene<D>& scene,
                                 const std::function<void(const std::string&)>& warn) const {
   const bool any_trace = scene.survey.any_receiver();
   if (any_trace) check_sampling(scene.recording, warn);
+  if (!any_trace && revision != "auto") warn("--revision has no effect: there are no receivers");
   if (any_trace && !snapshots.empty() && snapshots == traces)
     throw Error("--output and --snapshots both name " + traces + "; give them different names",
                 ErrorKind::usage);

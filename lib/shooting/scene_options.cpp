@@ -238,6 +238,10 @@ std::vector<std::string> SceneOptions::idle(const Scene<D>& scene) const {
       sentences.push_back(
           std::string(option) + " has no effect" +
           (elastic ? " beside --without attenuation" : ": no cell of the model has a finite qp or qs"));
+  for (const auto& [given, option] :
+       {std::pair(interval_s != usual.interval_s, "--dt"), std::pair(record != usual.record, "--record")})
+    if (given && !scene.survey.any_receiver())
+      sentences.push_back(std::string(option) + " has no effect: there are no receivers");
   if (correction != usual.correction && !scene.slips())
     sentences.push_back("--correction has no effect: nothing in the scene slips");
   if (edge_width != 0 && top != "absorbing" && sides != "absorbing" && bottom != "absorbing")

@@ -61,5 +61,5 @@ TEST_F(Chain, ResponsesAreComparedAndTransformed) {
   done("sw-diff slip.sgy elastic.sgy | sw-spectrum - -o spectrum.nc; test -s spectrum.nc");
   // Without fractures there is no response at all.
   done(layers + "-o intact.nc; " + shoot + "-o a.sgy < intact.nc; " + shoot +
-       "--without slip -o b.sgy < intact.nc; sw-compare a.sgy b.sgy --tolerance 0 > /dev/null");
+       "--without slip -q -o b.sgy < intact.nc; sw-compare a.sgy b.sgy --tolerance 0 > /dev/null");
 }

@@ -128,6 +128,11 @@ TEST_F(OptionPairs, OfAModelThatGivesThemNothingToDoAreWarnedOf) {
       {"--ranks-per-shot 2", "--ranks-per-shot has no effect without mpirun"}};
   for (const auto& [options, sentence] : rows)
     EXPECT_EQ(run(shoot + options).err, "sw-shoot: warning: " + std::string(sentence) + "\n") << options;
+  const std::string snapshots =
+      "sw-shoot m.nc --source 100,50 --wavelet ricker:15 --time 0.1 --snapshots s.nc --every 0.05 ";
+  for (const std::string option : {"--dt 0.002", "--record p", "--revision 2"})
+    EXPECT_EQ(run(snapshots + option).err, "sw-shoot: warning: " + option.substr(0, option.find(' ')) +
+                                               " has no effect: there are no receivers\n");
   done(
       "sw-layers --size 200x100 --step 5 --layer '0:2000:1000:2000 qp=50 qs=30 epsilon=0.1 delta=0.1' -o "
       "m.nc");

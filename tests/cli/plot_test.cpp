@@ -263,7 +263,7 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
           "--overlay: draws lines, which --style both does not go with");
   refused("g.sgy g.sgy --component p --difference --difference-gain 0 -o x.png", 2,
           "--difference-gain: found 0, expected a number other than 0");
-  refused("g.sgy --component p,vx -o x.png", 1, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
+  refused("g.sgy --component p,vx -o x.png", 2, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
   refused("g.sgy --component p,p -o x.png", 2, "--component: found p twice, expected it once");
   refused("g.sgy --component p,vz --overlay --style wiggle -o x.png", 2,
           "--overlay: found components in Pa and in m/s, expected one unit; choose a --component");

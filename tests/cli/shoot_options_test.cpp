@@ -53,7 +53,9 @@ TEST_F(ShootOptions, OfAttenuationAreWarnedAboutInElasticRock) {
   const auto said = [&](const std::string& options) { return run(shoot + at + options + "-o q.sgy").err; };
   EXPECT_EQ(said("--q-frequency 20 "),
             "sw-shoot: warning: --q-frequency has no effect: no cell of the model has a finite qp or qs\n");
-  EXPECT_EQ(said("--q-frequency 20 --without attenuation "), "");
+  EXPECT_EQ(said("--q-frequency 20 --without attenuation "),
+            "sw-shoot: warning: --without attenuation has no effect: the model has none\n"
+            "sw-shoot: warning: --q-frequency has no effect beside --without attenuation\n");
 }
 
 TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
