@@ -90,9 +90,10 @@ void check_count(const Recording& recording, const char* what, double interval_s
   constexpr double most = std::numeric_limits<std::int32_t>::max();
   if (recording.duration_s / interval_s < most) return;
   const double before_s = recording.before_s;
-  throw Error("found --time of " + shown(recording.duration_s - before_s, 9) + " s" +
-                  (before_s > 0 ? ", a delay of a source of " + shown(-before_s) + " s" : "") + " and " +
-                  what + " of " + shown(interval_s) + " s, expected at most " +
+  throw Error("found " +
+                  (before_s > 0 ? "a delay of a source of " + shown(-before_s)
+                                : "--time of " + shown(recording.duration_s)) +
+                  " s and " + what + " of " + shown(interval_s) + " s, expected at most " +
                   std::to_string(std::int64_t(most)) + ' ' + counted,
               ErrorKind::usage);
 }
