@@ -164,9 +164,21 @@ bool has_signal(const segy::Trace& trace) {
   return std::any_of(trace.samples.begin(), trace.samples.end(), [](double sample) { return sample != 0; });
 }
 
+void check_any_filter(const Settings& settings) {
+  const bool any = !settings.taper.empty() || !settings.wavelet.empty() || !settings.band.empty() ||
+                   !settings.velocity.empty() || !settings.wavenumber.empty() || settings.interval_s ||
+                   !settings.gains.empty();
+  if (!any)
+    throw Error(
+        "found no filter, expected --taper, --convolve, --band, --velocity, --wavenumber, --resample or "
+        "--gain",
+        ErrorKind::usage);
+}
+
 void run(const Settings& settings, const cli::Context& context) {
   segy::Reader reader(settings.input, settings.input_options.to_damage());
   const SampleAxis& axis = reader.axis_with_interval();
+  check_any_filter(settings);
   check_interval(settings, reader);
   const auto over_traces = fk_settings_of(settings);
   auto steps = steps_of(settings, axis);

@@ -582,6 +582,8 @@ void run(const Settings& settings, const cli::Context& context) {
     refuse("--trace: standard input holds the model already, expected a file");
   if (settings.seed && settings.count == 0 && !drawn(settings))
     refuse("--seed needs --count, --network or --intensity");
+  if (settings.seed && *settings.seed < 0)
+    refuse("--seed: found " + std::to_string(*settings.seed) + ", expected 0 or more");
   check_single(settings);
   check_friction(settings);
   check_effective(settings);

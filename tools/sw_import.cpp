@@ -204,6 +204,7 @@ ImportedField read_segy(const Settings& settings, const std::string& path, const
   }
   segy::Reader reader(path, {}, {taken.begin(), taken.end()});
   auto field = read_section(reader, *settings.step_m, !settings.allow_rough);
+  for (auto& doubt : reader.doubts()) field.said.push_back(std::move(doubt));
   const bool in_feet = reader.header().feet && unit.is_speed && !unit.given;
   if (in_feet)
     field.said.emplace_back(

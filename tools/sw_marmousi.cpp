@@ -50,6 +50,8 @@ void run(const Settings& settings, const cli::Context& context) {
   const auto size = in_place("--size", [&] { return parse_size<2>(settings.size); });
   const auto grid = in_place("--size, --step", [&] { return grid_of_size<2>(size, settings.step_m); });
   auto geology = settings.geology;
+  if (settings.seed < 0)
+    throw Error("--seed: found " + std::to_string(settings.seed) + ", expected 0 or more", ErrorKind::usage);
   geology.seed = std::uint64_t(settings.seed);
   const auto choice =
       settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });

@@ -44,12 +44,14 @@ std::string name_beside_others(const std::string& path) {
 
 Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& options, const Page& page) {
   std::vector<NamedGather> gathers;
+  std::vector<std::string> doubts;
   std::string text;
   TraceChoice choice{options.of};
   if (options.shot) choice.shot = std::int64_t(*options.shot);
   for (auto& input : inputs) {
     segy::Reader reader(input.path, options.traces.read_options(), {input.taken.begin(), input.taken.end()});
     auto sections = read_sections(reader, choice);
+    for (auto& doubt : reader.doubts()) doubts.push_back(std::move(doubt));
     if (gathers.empty()) {  // of the others, too
       choice.of = {};
       for (const auto& section : sections) choice.of.components.push_back(section.component);
@@ -60,7 +62,9 @@ Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& option
   }
   auto style = options.gather;
   style.overlay = options.overlay;
-  return draw_gathers(std::move(gathers), style, options.look, with_history(page, text));
+  auto picture = draw_gathers(std::move(gathers), style, options.look, with_history(page, text));
+  picture.notes.insert(picture.notes.end(), doubts.begin(), doubts.end());
+  return picture;
 }
 
 /// Those of a choice. Throws a usage Error for several where a picture shows one.

@@ -54,6 +54,8 @@ class InjectionReader {
     reader_.axis_with_interval();
     while (reader_.next(trace))
       in_place(reader_.name() + ": trace " + std::to_string(reader_.delivered()), [&] { take(trace); });
+    // What is injected is the whole of such a shot: it is not shot in doubt.
+    for (const auto& doubt : reader_.doubts()) throw Error(doubt);
     if (survey_.shots.empty())
       throw Error(reader_.name() + ": found nothing to inject, expected a trace with samples other than 0");
     settle_numbers(survey_);

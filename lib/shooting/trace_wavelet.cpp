@@ -41,6 +41,7 @@ shape::Sampled read_trace(const std::string& path, std::int64_t number) {
                     (reader.delivered() == 1 ? " trace" : " traces") + ", expected trace " +
                     std::to_string(number),
                 number > 1 ? ErrorKind::usage : ErrorKind::data);
+  for (const auto& doubt : reader.doubts()) throw Error(doubt);
   return in_place(path + ": trace " + std::to_string(number), [&] {
     check_finite(trace.samples);
     const auto axis = reader.axis_of(trace);
