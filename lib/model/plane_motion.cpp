@@ -35,35 +35,31 @@ std::array<Complex, 4> slownesses(const Elasticity<2>& c, double rho, double alo
 }
 
 /// Motion that the equation of motion lets through, of unit size.
-LayerWave wave_of(const Elasticity<2>& c, double rho, double along, Complex down) {
+LayerWave<2> wave_of(const Elasticity<2>& c, double rho, double along, Complex down) {
   const Inertia<Complex> of(c, rho, along, down);
   // Either row gives the motion; one of them may say nothing.
   const bool first = std::norm(of.xx) > std::norm(of.zz);
   const Complex x = first ? -of.xz : of.zz, z = first ? of.xx : -of.xz;
   const double size = std::sqrt(std::norm(x) + std::norm(z));
-  return {down, x / size, z / size};
+  return {down, {x / size, z / size}};
 }
 
-/// Whether it decays downwards or carries energy down.
-bool goes_down(const Material& rock, double along, const LayerWave& wave) {
-  if (wave.down.imag() != 0) return wave.down.imag() < 0;
-  const auto stress = stress_of_motion(rock, along, wave.down, wave.x, wave.z);
-  return (std::conj(wave.x) * stress[2] + std::conj(wave.z) * stress[1]).real() < 0;
+/// In isotropic rock, or fluid.
+std::vector<LayerWave<2>> isotropic_waves(const Material& rock, double along, bool down) {
+  std::vector<LayerWave<2>> waves;
+  for (const bool shear : {false, true}) {
+    if (shear && rock.vs == 0) continue;
+    const double speed = shear ? rock.vs : rock.vp;
+    const auto q = (down ? 1. : -1.) * slowness_across(speed, along);
+    // Along the slowness, or across it.
+    const Complex x = shear ? q : Complex(along), z = shear ? Complex(-along) : q;
+    const double size = std::sqrt(std::norm(x) + std::norm(z));
+    waves.push_back({q, {x / size, z / size}});
+  }
+  return waves;
 }
 
 }  // namespace
-
-template <class Number>
-std::array<Number, 3> stress_of_motion(const Material& rock, double along, Number down, Number vx,
-                                       Number vz) {
-  const auto c = elasticity_of<2>(rock);
-  const Number xx = -along * vx, zz = -down * vz, xz = -(along * vz + down * vx);
-  return {c(1, 1) * xx + c(1, 3) * zz + c(1, 5) * xz, c(1, 3) * xx + c(3, 3) * zz + c(3, 5) * xz,
-          c(1, 5) * xx + c(3, 5) * zz + c(5, 5) * xz};
-}
-
-template std::array<double, 3> stress_of_motion(const Material&, double, double, double, double);
-template std::array<Complex, 3> stress_of_motion(const Material&, double, Complex, Complex, Complex);
 
 PlaneMotion plane_motion(const Material& rock, double across, double down, bool shear) {
   if (!rock.is_anisotropic())
@@ -87,17 +83,16 @@ std::complex<double> slowness_across(double speed, double along) {
   return {0, -std::max(std::sqrt(-square), least)};
 }
 
-std::array<LayerWave, 2> layer_waves(const Material& rock, double along, bool down) {
+std::vector<LayerWave<2>> layer_waves(const Material& rock, double along, bool down) {
+  if (!rock.is_anisotropic()) return isotropic_waves(rock, along, down);
   const auto c = elasticity_of<2>(rock);
-  std::array<LayerWave, 4> all;
-  const auto roots = slownesses(c, rock.rho, along);
-  std::transform(roots.begin(), roots.end(), all.begin(),
-                 [&](const Complex& root) { return wave_of(c, rock.rho, along, root); });
-  // Two go down and two up; those that lie along the layers are whichever are left.
-  std::stable_sort(all.begin(), all.end(), [&](const LayerWave& one, const LayerWave& other) {
-    return goes_down(rock, along, one) > goes_down(rock, along, other);
+  std::vector<LayerWave<2>> all;
+  for (const auto& root : slownesses(c, rock.rho, along)) all.push_back(wave_of(c, rock.rho, along, root));
+  // Two go down and two up; roots at grazing incidence fill the remaining places.
+  std::stable_sort(all.begin(), all.end(), [&](const LayerWave<2>& one, const LayerWave<2>& other) {
+    return goes_down<2>(c, {along}, one) > goes_down<2>(c, {along}, other);
   });
-  std::array<LayerWave, 2> both{all[down ? 0 : 2], all[down ? 1 : 3]};
+  std::vector<LayerWave<2>> both(all.begin() + (down ? 0 : 2), all.begin() + (down ? 2 : 4));
   if (std::abs(both[0].down.real()) > std::abs(both[1].down.real())) std::swap(both[0], both[1]);
   return both;
 }

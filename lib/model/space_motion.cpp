@@ -69,53 +69,29 @@ ComplexVector motion_of(const QuadraticMatrix& of, Complex down) {
   return motion;
 }
 
-/// Whether it decays downwards or carries energy down.
-bool goes_down(const Elasticity<3>& stiffness, const std::array<double, 2>& along,
-               const SpaceLayerWave& wave) {
-  if (wave.down.imag() != 0) return wave.down.imag() < 0;
-  const auto stress = stress_of_motion<Complex>(stiffness, {along[0], along[1], wave.down}, wave.motion);
-  Complex power = 0;
-  for (int i = 0; i < 3; ++i)
-    power += std::conj(wave.motion[std::size_t(i)]) * stress[Elasticity<3>::pair(i, 2)];
-  return power.real() < 0;
-}
-
 /// Of any stiffness.
-std::vector<SpaceLayerWave> waves_of_any(const Material& rock, const std::array<double, 2>& along,
-                                         bool down) {
+std::vector<LayerWave<3>> waves_of_any(const Material& rock, const std::array<double, 2>& along, bool down) {
   const auto stiffness = elasticity_of<3>(rock);
   const auto of = inertia(stiffness, rock.rho, along);
   const double size = std::sqrt(rock.rho / std::min({stiffness.voigt[3][3], stiffness.voigt[4][4]})) +
                       std::hypot(along[0], along[1]);
-  std::vector<SpaceLayerWave> all;
+  std::vector<LayerWave<3>> all;
   for (const auto& root : roots_of(determinant(of), size)) all.push_back({root, motion_of(of, root)});
-  // Three go down and three up; those that lie along the layers are whichever are left.
-  std::stable_sort(all.begin(), all.end(), [&](const SpaceLayerWave& one, const SpaceLayerWave& other) {
-    return goes_down(stiffness, along, one) > goes_down(stiffness, along, other);
+  // Three go down and three up; roots at grazing incidence fill the remaining places.
+  std::stable_sort(all.begin(), all.end(), [&](const LayerWave<3>& one, const LayerWave<3>& other) {
+    return goes_down<3>(stiffness, along, one) > goes_down<3>(stiffness, along, other);
   });
   return {all.begin() + (down ? 0 : 3), all.begin() + (down ? 3 : 6)};
 }
 
 /// Of rock that is alike in all horizontal directions: in the plane of travel, and across it.
-std::vector<SpaceLayerWave> waves_of_level_beds(const Material& rock, const std::array<double, 2>& along,
-                                                bool down) {
+std::vector<LayerWave<3>> waves_of_level_beds(const Material& rock, const std::array<double, 2>& along,
+                                              bool down) {
   const double p = std::hypot(along[0], along[1]);
   const double x = p > 0 ? along[0] / p : 1, y = p > 0 ? along[1] / p : 0;
-  std::vector<SpaceLayerWave> all;
-  if (rock.is_anisotropic()) {
-    for (const auto& wave : layer_waves(rock, p, down))
-      all.push_back({wave.down, {x * wave.x, y * wave.x, wave.z}});
-  } else {
-    for (const bool shear : {false, true}) {
-      if (shear && rock.vs == 0) continue;
-      const double speed = shear ? rock.vs : rock.vp;
-      const auto q = (down ? 1. : -1.) * slowness_across(speed, p);
-      // Along the slowness, or across it.
-      const Complex level = speed * (shear ? q : Complex(p)), sinking = speed * (shear ? Complex(-p) : q);
-      const double size = std::sqrt(std::norm(level) + std::norm(sinking));
-      all.push_back({q, {x * level / size, y * level / size, sinking / size}});
-    }
-  }
+  std::vector<LayerWave<3>> all;
+  for (const auto& wave : layer_waves(rock, p, down))
+    all.push_back({wave.down, {x * wave.motion[0], y * wave.motion[0], wave.motion[1]}});
   if (rock.vs == 0) return all;
   // (rho - c66 p^2)/c55 is the square of the slowness down.
   const double stretch = std::sqrt(1 + 2 * rock.gamma);
@@ -124,23 +100,6 @@ std::vector<SpaceLayerWave> waves_of_level_beds(const Material& rock, const std:
 }
 
 }  // namespace
-
-template <class Number>
-std::array<Number, 6> stress_of_motion(const Elasticity<3>& stiffness, const std::array<Number, 3>& slowness,
-                                       const std::array<Number, 3>& velocity) {
-  const auto& [x, y, z] = slowness;
-  const auto& [vx, vy, vz] = velocity;
-  const std::array<Number, 6> strain = {-(x * vx),          -(y * vy),          -(z * vz),
-                                        -(y * vz + z * vy), -(x * vz + z * vx), -(x * vy + y * vx)};
-  std::array<Number, 6> stress{};
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j) stress[i] += stiffness.voigt[i][j] * strain[j];
-  return stress;
-}
-template std::array<double, 6> stress_of_motion(const Elasticity<3>&, const std::array<double, 3>&,
-                                                const std::array<double, 3>&);
-template std::array<Complex, 6> stress_of_motion(const Elasticity<3>&, const std::array<Complex, 3>&,
-                                                 const std::array<Complex, 3>&);
 
 SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const std::array<double, 2>& along,
                          bool shear) {
@@ -158,7 +117,7 @@ SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const 
   return found;
 }
 
-std::vector<SpaceLayerWave> layer_waves(const Material& rock, const std::array<double, 2>& along, bool down) {
+std::vector<LayerWave<3>> layer_waves(const Material& rock, const std::array<double, 2>& along, bool down) {
   const bool level = rock.tilt == 0 && !rock.orthorhombic;
   return level ? waves_of_level_beds(rock, along, down) : waves_of_any(rock, along, down);
 }

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <vector>
 
-#include "model/elasticity.hpp"
+#include "model/plane_motion.hpp"
 
 namespace slipwave {
 
@@ -22,18 +21,7 @@ struct SpaceMotion {
 SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const std::array<double, 2>& along,
                          bool shear);
 
-/// A wave of one slowness along x and y, that and down in s/m: it decays or carries energy the way it goes.
-/// Motion is of unit size.
-struct SpaceLayerWave {
-  std::complex<double> down;
-  std::array<std::complex<double>, 3> motion;
-};
-/// All waves that go down, or up: three in rock, one in fluid.
-std::vector<SpaceLayerWave> layer_waves(const Material& rock, const std::array<double, 2>& along, bool down);
-
-/// The stresses by Voigt's pairs, per unit of velocity, that a wave of a slowness brings with it. Pa s/m.
-template <class Number>
-std::array<Number, 6> stress_of_motion(const Elasticity<3>& stiffness, const std::array<Number, 3>& slowness,
-                                       const std::array<Number, 3>& velocity);
+/// The waves of a slowness along x and y that go down, or up: three in rock, one in fluid.
+std::vector<LayerWave<3>> layer_waves(const Material& rock, const std::array<double, 2>& along, bool down);
 
 }  // namespace slipwave

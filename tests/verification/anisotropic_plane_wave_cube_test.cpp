@@ -28,7 +28,7 @@ TEST(SpaceLayerWaves, SolveTheChristoffelEquationAndGoTheWayTheyShould) {
       ASSERT_EQ(waves.size(), 3U);
       for (const auto& wave : waves) {
         const std::array<Complex, 3> slowness = {along[0], along[1], wave.down};
-        const auto stress = stress_of_motion<Complex>(stiffness, slowness, wave.motion);
+        const auto stress = stress_of_motion<3, Complex>(stiffness, slowness, wave.motion);
         // rho v' = div s of f(t - p.x): rho v = -s p.
         Complex power = 0;
         double size = 0;

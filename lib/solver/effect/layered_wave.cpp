@@ -6,123 +6,16 @@
 #include <numbers>
 #include <optional>
 
-#include "base/band_system.hpp"
 #include "model/plane_motion.hpp"
-#include "solver/effect/stack_series.hpp"
 
 namespace slipwave::solver {
 namespace {
 
 using Complex = std::complex<double>;
-using Fields = std::array<Complex, 5>;
-
-/// Equations reach so many unknowns to either side of the diagonal, at most.
-using PlaneEquations = BandSystem<8>;
-
-}  // namespace
-
-double PlaneStackResponse::reference_of(std::size_t layer, bool down) const {
-  const double bottom = stack_.depths_m[layer + 1], top = stack_.depths_m[layer];
-  const bool first = layer == 0 && stack_.ends[0] == EdgeLaw::absorbing,
-             last = layer + 1 == stack_.layers.size() && stack_.ends[1] == EdgeLaw::absorbing;
-  return first ? bottom : last ? top : down ? top : bottom;
-}
-
-PlaneStackResponse::Wave PlaneStackResponse::make_in_anisotropic(std::size_t layer, bool shear,
-                                                                 bool down) const {
-  const auto& rock = stack_.layers[layer];
-  const auto wave = layer_waves(rock, stack_.slowness, down)[shear];
-  const auto [sxx, szz, sxz] = stress_of_motion(rock, stack_.slowness, wave.down, wave.x, wave.z);
-  return {{layer, reference_of(layer, down), wave.down}, {wave.x, wave.z, sxx, szz, sxz}};
-}
-
-PlaneStackResponse::Wave PlaneStackResponse::make_incident() const {
-  const std::size_t layer = stack_.from_top ? 0 : stack_.layers.size() - 1;
-  const auto& rock = stack_.layers[layer];
-  if (!rock.is_anisotropic()) return make(layer, stack_.shear, stack_.from_top);
-  const double p = stack_.slowness, q = stack_.down, size = std::hypot(p, q);
-  const auto motion = plane_motion(rock, p / size, q / size, stack_.shear);
-  const auto [sxx, szz, sxz] = stress_of_motion(rock, p, q, motion.x, motion.z);
-  return {{layer, reference_of(layer, stack_.from_top), q}, {motion.x, motion.z, sxx, szz, sxz}};
-}
-
-PlaneStackResponse::Wave PlaneStackResponse::make(std::size_t layer, bool shear, bool down) const {
-  const auto& rock = stack_.layers[layer];
-  if (rock.is_anisotropic()) return make_in_anisotropic(layer, shear, down);
-  const double p = stack_.slowness, c = shear ? rock.vs : rock.vp;
-  const Complex q = (down ? 1. : -1.) * slowness_across(c, p);
-  // Velocity along the slowness, or across it.
-  const Complex vx = c * (shear ? q : Complex(p)), vz = c * (shear ? Complex(-p) : q);
-  const double mu = rock.rho * rock.vs * rock.vs, lambda = rock.rho * rock.vp * rock.vp - 2 * mu;
-  const Complex spread = p * vx + q * vz;
-  return {{layer, reference_of(layer, down), q},
-          {vx, vz, -(lambda * spread + 2 * mu * p * vx), -(lambda * spread + 2. * mu * q * vz),
-           -mu * (p * vz + q * vx)}};
-}
-
-void PlaneStackResponse::list_waves() {
-  const auto count = stack_.layers.size();
-  for (std::size_t layer = 0; layer < count; ++layer) {
-    first_wave_.push_back(waves_.size());
-    for (const bool down : {true, false})
-      for (const bool shear : {false, true}) {
-        const bool comes_from_outside = down ? layer == 0 && stack_.ends[0] == EdgeLaw::absorbing
-                                             : layer + 1 == count && stack_.ends[1] == EdgeLaw::absorbing;
-        if (!comes_from_outside && (!shear || stack_.layers[layer].vs > 0))
-          waves_.push_back(make(layer, shear, down));
-      }
-  }
-  first_wave_.push_back(waves_.size());
-  waves_.push_back(make_incident());
-}
-
-std::vector<Complex> PlaneStackResponse::solve(Complex omega) const {
-  const auto unknowns = waves_.size() - 1, count = stack_.layers.size();
-  PlaneEquations equations(unknowns);
-  std::size_t row = 0;
-  const double unit = stack_.layers.front().rho * stack_.layers.front().vp;
-  const auto value = [&](const Wave& wave, std::size_t field, double z) {
-    const auto decay = std::exp(Complex(0, -1) * omega * wave.slowness * (z - wave.reference_m));
-    return wave.fields[field] * decay / (field < 2 ? 1 : unit);
-  };
-  // One field at a depth, of a layer and less that of another: zero.
-  const auto add = [&](std::size_t field, double z,
-                       std::initializer_list<std::pair<std::size_t, double>> of) {
-    for (const auto& [layer, sign] : of) {
-      for (auto n = first_wave_[layer]; n < first_wave_[layer + 1]; ++n)
-        equations.at(row, n) += sign * value(waves_[n], field, z);
-      if (waves_.back().layer == layer) equations.right(row) -= sign * value(waves_.back(), field, z);
-    }
-    ++row;
-  };
-  const auto solid = [&](std::size_t layer) { return stack_.layers[layer].vs > 0; };
-  const auto add_end = [&](std::size_t layer, EdgeLaw law, double z) {
-    if (law == EdgeLaw::absorbing) return;
-    add(law == EdgeLaw::free ? plane_szz : plane_vz, z, {{layer, 1}});
-    if (solid(layer)) add(law == EdgeLaw::rigid ? plane_vx : plane_sxz, z, {{layer, 1}});
-  };
-  add_end(0, stack_.ends[0], stack_.depths_m.front());
-  for (std::size_t n = 0; n + 1 < count; ++n) {
-    const double z = stack_.depths_m[n + 1];
-    for (const auto field : {plane_vz, plane_szz}) add(field, z, {{n, 1}, {n + 1, -1}});
-    if (solid(n) && solid(n + 1)) {
-      for (const auto field : {plane_vx, plane_sxz}) add(field, z, {{n, 1}, {n + 1, -1}});
-    } else {
-      for (const auto layer : {n, n + 1})
-        if (solid(layer)) add(plane_sxz, z, {{layer, 1}});
-    }
-  }
-  add_end(count - 1, stack_.ends[1], stack_.depths_m.back());
-  auto amplitudes = equations.solve();
-  amplitudes.emplace_back(1);
-  return amplitudes;
-}
-
-namespace {
 
 /// The waves along x of a depth, which lies in that layer.
 std::array<TimeSeries, std::size_t(along_x_count)> waves_along_x_at(StackSeries& series,
-                                                                    const PlaneStackResponse& response,
+                                                                    const StackResponse<2>& response,
                                                                     const Material& rock, double z,
                                                                     std::size_t layer) {
   const MotionAlongX medium(rock);
@@ -203,24 +96,19 @@ class LayeredWave : public IncidentWave<D, Real> {
   std::vector<std::array<TimeSeries, std::size_t(along_x_count)>> series_;  // [row]
 };
 
-/// The layers of the column, and which each row of the computed grid is in.
+/// The layers of the column, and the wave that falls on them in its plane of travel.
 template <int D>
-PlaneStack stack_of(const Scene<D>& scene, const PlaneWave<D>& wave, const Domain<D>& domain,
-                    const PlaneWaveWay<D>& way, std::vector<std::size_t>& layer_of_row) {
+LayerStack<2> stack_of(const Scene<D>& scene, const PlaneWave<D>& wave, const Domain<D>& domain,
+                       const PlaneWaveWay<D>& way) {
   constexpr int z = D - 1;
   const auto& medium = scene.model.medium;
-  PlaneStack stack;
-  stack.ends = {scene.edges[z][0], scene.edges[z][1]};
-  stack.from_top = way.entry_side == 0;
-  stack.shear = wave.shear;
   const auto entry = material_of(medium, std::size_t(medium.grid().flat(way.entry)));
-  const double speed = plane_motion(entry, wave.across(), wave.direction[z], wave.shear).speed;
-  stack.slowness = wave.across() / speed;
-  stack.down = wave.direction[z] / speed;
-  auto column = layers_of(scene, domain, way);
-  stack.layers = std::move(column.layers), stack.depths_m = std::move(column.depths_m);
-  layer_of_row = std::move(column.of_row);
-  return stack;
+  const auto motion = plane_motion(entry, wave.across(), wave.direction[z], wave.shear);
+  return {layers_of(scene, domain, way),
+          {scene.edges[z][0], scene.edges[z][1]},
+          way.entry_side == 0,
+          {wave.across() / motion.speed, wave.direction[z] / motion.speed},
+          {motion.x, motion.z}};
 }
 
 }  // namespace
@@ -276,8 +164,7 @@ template <int D>
 struct LayeredSeries<D>::Impl {
   Impl(const Scene<D>& scene, const Source<D>& source, const PlaneForm<D>& form, const Domain<D>& domain,
        const PlaneWaveWay<D>& way)
-      : stack(stack_of(scene, std::get<PlaneWave<D>>(source.mechanism), domain, way, layer_of_row)),
-        response(stack),
+      : response(stack_of(scene, std::get<PlaneWave<D>>(source.mechanism), domain, way)),
         depths(depths_of_rows(domain)) {
     const double slowness = form.slowness()[0];
     const auto& along = std::get<PlaneWave<D>>(source.mechanism).along;
@@ -289,9 +176,10 @@ struct LayeredSeries<D>::Impl {
         window);
   }
 
-  std::vector<std::size_t> layer_of_row;
-  PlaneStack stack;
-  PlaneStackResponse response;
+  std::size_t layer_of(std::size_t row) const { return response.stack().column.of_row[row]; }
+  const Material& rock_of(std::size_t row) const { return response.stack().column.layers[layer_of(row)]; }
+
+  StackResponse<2> response;
   std::vector<double> depths;
   std::optional<StackSeries> series;
 };
@@ -306,21 +194,20 @@ LayeredSeries<D>::~LayeredSeries() = default;
 
 template <int D>
 MotionAlongX LayeredSeries<D>::medium(std::size_t row) const {
-  return MotionAlongX(impl_->stack.layers[impl_->layer_of_row[row]]);
+  return MotionAlongX(impl_->rock_of(row));
 }
 
 template <int D>
 std::array<TimeSeries, std::size_t(along_x_count)> LayeredSeries<D>::waves_at(std::size_t row) const {
-  const auto layer = impl_->layer_of_row[row];
-  return waves_along_x_at(*impl_->series, impl_->response, impl_->stack.layers[layer], impl_->depths[row],
-                          layer);
+  return waves_along_x_at(*impl_->series, impl_->response, impl_->rock_of(row), impl_->depths[row],
+                          impl_->layer_of(row));
 }
 
 template <int D>
 std::array<std::vector<Complex>, 5> LayeredSeries<D>::fields_at(std::size_t row) const {
-  return impl_->series->template sums_at<5>(
-      impl_->depths[row], impl_->layer_of_row[row],
-      [&](std::size_t wave) { return impl_->response.waves()[wave].fields; });
+  return impl_->series->template sums_at<5>(impl_->depths[row], impl_->layer_of(row), [&](std::size_t wave) {
+    return impl_->response.waves()[wave].fields;
+  });
 }
 
 template <int D>

@@ -157,7 +157,7 @@ PlaneForm<D>::PlaneForm(const Source<D>& source, const Material& rock)
   if (rock.is_anisotropic()) {
     const auto motion = plane_motion(rock, across, down, wave.shear);
     const double vx = a * motion.x, vz = a * motion.z;
-    const auto [sxx, szz, sxz] = stress_of_motion(rock, slowness_[0], slowness_[1], vx, vz);
+    const auto [sxx, szz, sxz] = stress_of_motion<2, double>(elasticity_of<2>(rock), slowness_, {vx, vz});
     factors_ = {vx, vz, sxx, szz, sxz};
   } else if (wave.shear)
     factors_ = {a * down, -a * across, strain * 2 * mu * across * down, -strain * 2 * mu * across * down,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/space_motion.hpp"
 #include "solver/effect/layered_wave.hpp"
 
 namespace slipwave::solver {
@@ -15,14 +16,14 @@ constexpr std::size_t field_count = std::size_t(Rows::count);
 int shear(int one, int other) { return Rows::shear_stress(std::min(one, other), std::max(one, other)); }
 
 /// The waves along an axis that fields are made of, and their velocities.
-std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const MotionAlongX& medium,
-                                                        const SpaceFields& fields) {
-  std::vector<std::pair<SpaceFields, double>> waves;
+std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const MotionAlongX& medium,
+                                                          const WaveFields<3>& fields) {
+  std::vector<std::pair<WaveFields<3>, double>> waves;
   const auto of = [&](int row) { return fields[std::size_t(row)]; };
-  SpaceFields rest = fields;
+  WaveFields<3> rest = fields;
   for (const double sign : {1., -1.}) {
-    SpaceFields p{}, s{};
-    const auto set = [&](SpaceFields& wave, int row, double value) {
+    WaveFields<3> p{}, s{};
+    const auto set = [&](WaveFields<3>& wave, int row, double value) {
       wave[std::size_t(row)] = value;
       rest[std::size_t(row)] -= value;
     };
@@ -45,10 +46,10 @@ std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const MotionAl
 }
 
 /// The same of a rock of any symmetry.
-std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const Elasticity<3>& stiffness, double rho,
-                                                        const SpaceFields& fields) {
-  std::vector<std::pair<SpaceFields, double>> waves;
-  SpaceFields rest = fields;
+std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const Elasticity<3>& stiffness,
+                                                          double rho, const WaveFields<3>& fields) {
+  std::vector<std::pair<WaveFields<3>, double>> waves;
+  WaveFields<3> rest = fields;
   const auto all = slipwave::waves_along<3>(stiffness, unit_vector<3>(std::size_t(axis)));
   for (std::size_t n = 0; n < 3; ++n) {
     constexpr double rounding = 1e-12;
@@ -66,7 +67,7 @@ std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const Elastici
       Point<3> slowness{}, velocity = motion;
       slowness[std::size_t(axis)] = sign / c;
       for (auto& part : velocity) part *= size;
-      const auto wave = fields_of_motion(stiffness, slowness, velocity);
+      const auto wave = fields_of_motion<3, double>(stiffness, slowness, velocity);
       for (std::size_t row = 0; row < field_count; ++row) rest[row] -= wave[row];
       waves.emplace_back(wave, sign * c);
     }
@@ -186,7 +187,7 @@ SpaceSeries series_of_wavelet(const Wavelet& wavelet, const std::vector<ShiftedF
   const auto count = std::int64_t(std::ceil(wavelet.duration_s() / interval_s)) + 2 * beside + 1;
   std::array<std::vector<float>, field_count> samples;
   for (std::int64_t n = 0; n < count; ++n) {
-    SpaceFields sum{};
+    WaveFields<3> sum{};
     for (const auto& part : parts) {
       const double w = wavelet(double(n - beside) * interval_s + part.earlier_s);
       for (std::size_t row = 0; row < field_count; ++row) sum[row] += part.fields[row] * w;
@@ -227,7 +228,7 @@ SpaceSeries series_of_layers(Layers& layers, const std::array<std::vector<std::c
 
 /// What becomes of fields whose waves along an axis `waves_of` says.
 template <class WavesOf>
-std::vector<ShiftedFields> split_ahead(const SpaceFields& fields, const std::array<double, 2>& slowness,
+std::vector<ShiftedFields> split_ahead(const WaveFields<3>& fields, const std::array<double, 2>& slowness,
                                        const SweepsAhead& ahead, const WavesOf& waves_of) {
   std::vector<ShiftedFields> parts = {{fields, 0}};
   for (const int axis : {0, 1}) {
@@ -244,25 +245,27 @@ std::vector<ShiftedFields> split_ahead(const SpaceFields& fields, const std::arr
 
 }  // namespace
 
-std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFields& fields,
+std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const WaveFields<3>& fields,
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
   return split_ahead(fields, slowness, ahead,
-                     [&](int axis, const SpaceFields& of) { return waves_along(axis, medium, of); });
+                     [&](int axis, const WaveFields<3>& of) { return waves_along(axis, medium, of); });
 }
 
-std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho, const SpaceFields& fields,
-                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
-  return split_ahead(fields, slowness, ahead,
-                     [&](int axis, const SpaceFields& of) { return waves_along(axis, stiffness, rho, of); });
+std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho,
+                                       const WaveFields<3>& fields, const std::array<double, 2>& slowness,
+                                       const SweepsAhead& ahead) {
+  return split_ahead(fields, slowness, ahead, [&](int axis, const WaveFields<3>& of) {
+    return waves_along(axis, stiffness, rho, of);
+  });
 }
 
-SpaceFields turned(const MotionAlongX& medium, const PlaneFields& fields,
-                   const std::array<double, 2>& along) {
+WaveFields<3> turned(const MotionAlongX& medium, const PlaneFields& fields,
+                     const std::array<double, 2>& along) {
   const auto [x, y] = along;
   // Plane strain: lambda (e_rr + e_zz).
   const double srr = fields[plane_sxx], szz = fields[plane_szz],
                across = medium.passive / (1 + medium.passive) * (srr + szz);
-  SpaceFields space{};
+  WaveFields<3> space{};
   const auto set = [&](int row, double value) { space[std::size_t(row)] = value; };
   set(Rows::velocity(0), fields[plane_vx] * x);
   set(Rows::velocity(1), fields[plane_vx] * y);
@@ -305,13 +308,13 @@ template <class Real>
 void add_layers(const Scene<3>& scene, const Source<3>& source, const Domain<3>& domain,
                 const PlaneWaveWay<3>& way, const Incident& incident, const std::vector<SweepsAhead>& stages,
                 TurnedWave<Real>& wave) {
-  const SpaceStackResponse response({layers_of(scene, domain, way),
-                                     {scene.edges[2][0], scene.edges[2][1]},
-                                     way.entry_side == 0,
-                                     incident.slowness,
-                                     incident.motion});
-  const auto window = window_of(scene, source, domain, incident.along(), incident.slowness[2],
-                                response.waves().back().reference_m);
+  const StackResponse<3> response({layers_of(scene, domain, way),
+                                   {scene.edges[2][0], scene.edges[2][1]},
+                                   way.entry_side == 0,
+                                   incident.slowness,
+                                   incident.motion});
+  const auto window =
+      window_of(scene, source, domain, incident.along(), incident.slowness[2], response.reference_m());
   StackSeries series(
       {response.waves().begin(), response.waves().end()},
       [&](std::complex<double> omega) { return response.solve(omega); }, source.wavelet, source.amplitude,
@@ -324,7 +327,7 @@ void add_layers(const Scene<3>& scene, const Source<3>& source, const Domain<3>&
     const auto spectra = series.sums_at<field_count>(
         depths[row], column.of_row[row], [&](std::size_t n) { return response.waves()[n].fields; });
     for (std::size_t stage = 0; stage < stages.size(); ++stage)
-      wave.add(stage, series_of_layers(series, spectra, [&](const SpaceFields& fields) {
+      wave.add(stage, series_of_layers(series, spectra, [&](const WaveFields<3>& fields) {
                  return parts_ahead(stiffness, rock.rho, fields, incident.along(), stages[stage]);
                }));
   }
@@ -351,7 +354,7 @@ std::unique_ptr<IncidentWave<3, Real>> make_anisotropic_wave(const Scene<3>& sce
   const auto stiffness = elasticity_of<3>(rock);
   auto velocity = incident.motion;
   for (auto& part : velocity) part *= source.amplitude;
-  const auto fields = fields_of_motion(stiffness, incident.slowness, velocity);
+  const auto fields = fields_of_motion<3, double>(stiffness, incident.slowness, velocity);
   for (std::size_t stage = 0; stage < stages.size(); ++stage)
     wave->add(stage, series_of_wavelet(source.wavelet, parts_ahead(stiffness, rock.rho, fields,
                                                                    incident.along(), stages[stage])));

@@ -7,13 +7,13 @@
 #include "scene/plane_wave.hpp"
 #include "solver/effect/incident_wave.hpp"
 #include "solver/effect/plane_form.hpp"
-#include "solver/effect/space_stack.hpp"
+#include "solver/effect/stack_response.hpp"
 
 namespace slipwave::solver {
 
 /// A part of a plane wave's fields, and how much earlier it is read.
 struct ShiftedFields {
-  SpaceFields fields{};
+  WaveFields<3> fields{};
   double earlier_s = 0;
 };
 
@@ -25,15 +25,17 @@ struct SweepsAhead {
 /// What becomes of the fields f(t - p.x) of a plane wave in one medium when sweeps along x, then along y, go
 /// ahead: each moves the waves along its axis that the fields are made of, so the fields are those of some
 /// parts at times of their own. `slowness` is along x and y, s/m.
-std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFields& fields,
+std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const WaveFields<3>& fields,
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead);
 
 /// The same in a rock of any symmetry (theory.md (A19)).
-std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho, const SpaceFields& fields,
-                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead);
+std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho,
+                                       const WaveFields<3>& fields, const std::array<double, 2>& slowness,
+                                       const SweepsAhead& ahead);
 
 /// Fields of a wave that travels in the x-z plane, turned about z from x towards y.
-SpaceFields turned(const MotionAlongX& medium, const PlaneFields& fields, const std::array<double, 2>& along);
+WaveFields<3> turned(const MotionAlongX& medium, const PlaneFields& fields,
+                     const std::array<double, 2>& along);
 
 /// Whether any rock that the incident wave of a scene is known in is anisotropic.
 bool travels_in_anisotropic_rock(const Scene<3>& scene, const Domain<3>& domain, const PlaneWaveWay<3>& way);
