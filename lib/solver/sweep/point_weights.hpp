@@ -21,7 +21,8 @@ std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values);
 
 /// Weights of the values of one field row round a point (theory.md (A1)-(A3)), from cells of the same kind
 /// (solid or fluid) as the one the point is in: nothing is read across a fluid-solid interface. At an edge of
-/// the grid the field is extended by the edge law. Empty for shear stresses that are not stored.
+/// the grid the field is extended by the edge law, beside void as at a free edge. Empty for shear stresses
+/// that are not stored.
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row);
@@ -40,12 +41,16 @@ std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Do
 
 /// What ends the cells that are read: another kind of cell (solid, fluid, void), or strong interfaces, too.
 enum class Reach { over_one_kind, to_strong_interfaces };
-/// The cells round a cell that may be read along each axis, and the extension of a field row beyond those at
-/// an edge of the grid.
+/// The cells round a cell that may be read along each axis, the extension of a field row beyond those at an
+/// edge of the grid or a free surface, and whether they end at a free surface on either side (0 low, 1 high).
 template <int D>
-std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
-                                                     int field_row, bool fluid,
-                                                     Reach reach = Reach::over_one_kind);
+struct ExtendedCells {
+  std::array<AxisCells, std::size_t(D)> cells;
+  std::array<std::array<bool, 2>, std::size_t(D)> ends_free{};
+};
+template <int D>
+ExtendedCells<D> extended_cells(const Domain<D>& domain, const Index<D>& centre, int field_row, bool fluid,
+                                Reach reach = Reach::over_one_kind);
 
 /// Row of a field of the wave equation.
 template <int D>
