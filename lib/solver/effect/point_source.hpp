@@ -51,6 +51,8 @@ class PointSource : public Effect<D, Real> {
  private:
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
+  void add_force(const Source<D>& source, int axis, double newtons, double volume);
+  Index<D> cell_of_value(const ValueWeight& value) const;
   void add(const Source<D>& source, int row, int like, double strength);
   bool add_smoothly(const Source<D>& source, double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
