@@ -39,7 +39,8 @@ template <int D, class Real>
 void PointSource<D, Real>::weigh(const Source<D>& source) {
   using Rows = FieldRows<D>;
   const auto injection = *point_injection(source);
-  centre_ = cell_at(domain_, source.position_m);
+  side_ = injection.isotropic ? Side::fluid : Side::solid;
+  centre_ = cell_at(domain_, source.position_m, side_);
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
   const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
@@ -161,7 +162,7 @@ template <int D, class Real>
 void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
   using Rows = FieldRows<D>;
   if (strength != 0)
-    add(source_weights(state_.layout, domain_, source.position_m, like),
+    add(source_weights(state_.layout, domain_, source.position_m, like, side_),
         Rows::stored(state_.layout, row) - Rows::stored(state_.layout, like), strength);
 }
 
@@ -170,7 +171,7 @@ template <int D, class Real>
 bool PointSource<D, Real>::add_smoothly(const Source<D>& source, double strength) {
   using Rows = FieldRows<D>;
   const int like = Rows::normal_stress(D - 1);
-  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like);
+  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like, side_);
   if (weights.empty()) return false;
   reach_ = widest_spread / 2;
   for (int i = 0; i < D; ++i) add(weights, Rows::normal_stress(i) - like, strength);

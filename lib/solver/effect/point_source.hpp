@@ -66,6 +66,7 @@ class PointSource : public Effect<D, Real> {
   Wavelet wavelet_;
   double delay_s_;
   double unit_;
+  Side side_ = Side::solid;                  // of an interface of fluid and solid that it is on
   Index<D> centre_{};                        // the cell of the source, which may lie beyond this subdomain
   std::int64_t reach_ = widest_stencil / 2;  // of the weights of a source in that cell, in cells
   std::vector<ValueWeight> values_;

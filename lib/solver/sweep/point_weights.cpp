@@ -244,33 +244,63 @@ ExtendedCells<D> extended_cells(const Domain<D>& domain, const Index<D>& centre,
 }
 
 template <int D>
-Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m) {
-  return domain.computed_cell(cell_of(domain.model_grid, point_m));
+Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
+  const Index<D> at = domain.computed_cell(cell_of(domain.model_grid, point_m));
+  const auto& p_waves = domain.impedance(wave_p);
+  const auto& s_waves = domain.impedance(wave_s);
+  const auto counts = [&](const Index<D>& cell) {
+    return p_waves(cell) > 0 && (s_waves(cell) > 0) == (side == Side::solid);
+  };
+  if (counts(at)) return at;
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  for (int axis = 0; axis < D; ++axis)
+    for (const int beyond : {-1, 1}) {
+      Index<D> beside = at;
+      auto& cell = beside[std::size_t(axis)];
+      const double face = double(cell) + 0.5 * beyond;
+      cell += beyond;
+      if (std::abs(domain.grid.position(axis, place[axis]) - face) > on_face || cell < 0 ||
+          cell >= domain.grid.shape[std::size_t(axis)])
+        continue;
+      if (counts(beside) || (p_waves(at) == 0 && p_waves(beside) > 0)) return beside;
+    }
+  return at;
+}
+
+/// The cells that a point reads or adds to: up to strong interfaces, unless too few are there.
+template <int D>
+static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& centre, int field_row,
+                                       bool fluid) {
+  const auto near = extended_cells(domain, centre, field_row, fluid, Reach::to_strong_interfaces);
+  const bool enough = std::all_of(near.cells.begin(), near.cells.end(), [](const AxisCells& cells) {
+    return cells.high - cells.low + 1 >= widest_beyond;
+  });
+  return enough ? near : extended_cells(domain, centre, field_row, fluid);
 }
 
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                     const Point<D>& point_m, int field_row) {
-  const Index<D> centre = cell_at(domain, point_m);
+                                     const Point<D>& point_m, int field_row, Side side) {
+  const Index<D> centre = cell_at(domain, point_m, side);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
-  const auto usable = extended_cells(domain, centre, field_row, fluid);
+  const auto usable = cells_of_point(domain, centre, field_row, fluid);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable.cells, field_row);
   if (!fluid && field_row < D)
     for (int axis = 0; axis < D; ++axis)
-      for (const int side : {0, 1})
-        if (usable.ends_free[std::size_t(axis)][std::size_t(side)])
-          add_surface_correction(layout, domain, place, usable.cells, axis, side, field_row, weights);
+      for (const int of : {0, 1})
+        if (usable.ends_free[std::size_t(axis)][std::size_t(of)])
+          add_surface_correction(layout, domain, place, usable.cells, axis, of, field_row, weights);
   return weights;
 }
 
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m, int field_row) {
-  const Index<D> centre = cell_at(domain, point_m);
+                                        const Point<D>& point_m, int field_row, Side side) {
+  const Index<D> centre = cell_at(domain, point_m, side);
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
-    return row_weights(layout, domain, point_m, field_row);
-  auto usable = extended_cells(domain, centre, field_row, false);
+    return row_weights(layout, domain, point_m, field_row, side);
+  auto usable = cells_of_point(domain, centre, field_row, false);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   for (int axis = 0; axis < D; ++axis) {
     auto& cells = usable.cells[std::size_t(axis)];
@@ -287,8 +317,8 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
 
 template <int D>
 std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                               const Point<D>& point_m, int field_row) {
-  const Index<D> centre = cell_at(domain, point_m);
+                                               const Point<D>& point_m, int field_row, Side side) {
+  const Index<D> centre = cell_at(domain, point_m, side);
   if (domain.impedance(wave_s)(centre) == 0) return {};
   const auto usable = cells_of_the_rock(domain, centre, field_row);
   if (!usable) return {};
@@ -305,19 +335,21 @@ int row_of(const WaveField& field) {
   return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
 }
 
-template Index<2> cell_at(const Domain<2>&, const Point<2>&);
-template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
-template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template Index<2> cell_at(const Domain<2>&, const Point<2>&, Side);
+template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int, Side);
+template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int,
+                                                 Side);
 template ExtendedCells<2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                        int);
+                                                        int, Side);
 template int row_of<2>(const WaveField&);
-template Index<3> cell_at(const Domain<3>&, const Point<3>&);
-template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
-template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template Index<3> cell_at(const Domain<3>&, const Point<3>&, Side);
+template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int, Side);
+template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int,
+                                                 Side);
 template ExtendedCells<3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                        int);
+                                                        int, Side);
 template int row_of<3>(const WaveField&);
 
 }  // namespace slipwave::solver
