@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "io/netcdf_file.hpp"
@@ -198,9 +199,32 @@ std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   }
 }
 
+/// The edges of the model are about its box. Where rows begin at the ground, void above is left out, and it
+/// is no edge.
+template <int D>
+void SceneOptions::set_ground(Scene<D>& scene, const Grid<D>& grid) const {
+  const auto begins_at_ground = [&] {
+    if (!grid.rows) return false;
+    const auto& horizons = grid.rows->horizons();
+    const auto top = grid.rows->row(0);
+    return std::any_of(horizons.begin(), horizons.end(),
+                       [](const auto& horizon) { return horizon.row == 0 && horizon.role == "surface"; }) &&
+           std::any_of(top.begin(), top.end(),
+                       [&](double depth_m) { return depth_m > on_face * grid.spacing_m; });
+  };
+  if (begins_at_ground())
+    scene.edges[D - 1][0] = edge_law(ground);
+  else if (ground != "free")
+    throw Error("--ground: found '" + ground +
+                    "' in a model whose rows do not begin at a ground below void, expected free; build the "
+                    "model with --fit surface",
+                ErrorKind::usage);
+}
+
 template <int D>
 std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
   scene.model = read_model<D>(file);
+  set_ground(scene, scene.model.grid());
   auto warnings = prepare_model(scene);
   const auto without_effects = effects_without();
   const bool left_out = std::find(without_effects.begin(), without_effects.end(), ModelEffect::attenuation) !=
@@ -228,6 +252,7 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
   collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
+      set_ground(scene, grid);
       place(scene.survey, read_ground(file, grid, needs_ground(scene.survey)));
       check(scene.survey, grid);
       // Fractures on faces widen what ranks exchange.
@@ -237,6 +262,7 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
       scene.model = read_model_rows<D>(file, first, last);
     } else {
       scene.model = read_model<D>(file);
+      set_ground(scene, scene.model.grid());
     }
     warnings = prepare_model(scene);
     if (!group) place_on_model(scene);
