@@ -249,6 +249,11 @@ template <int D>
 std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
                                                       Ranks* group) const {
   std::vector<std::string> warnings;
+  const auto read_rows = [&](const Grid<D>& grid) {
+    scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
+    const auto [first, last] = rows_held(scene.subdomain);
+    scene.model = read_model_rows<D>(file, first, last);
+  };
   collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
@@ -257,12 +262,18 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
       check(scene.survey, grid);
       // Fractures on faces widen what ranks exchange.
       if (file.has_variable("fracture")) scene.model.fracture_sets = read_fracture_sets<D>(file);
-      scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
-      const auto [first, last] = rows_held(scene.subdomain);
-      scene.model = read_model_rows<D>(file, first, last);
+      read_rows(grid);
     } else {
       scene.model = read_model<D>(file);
       set_ground(scene, scene.model.grid());
+    }
+  });
+  // Void anywhere widens it, too.
+  const bool wider = group && largest_of(group, has_void(scene.model.medium) ? 1 : 0) > 0;
+  collective_try(&all, [&] {
+    if (wider) {
+      scene.subdomain.has_void = true;
+      read_rows(read_model_grid<D>(file));
     }
     warnings = prepare_model(scene);
     if (!group) place_on_model(scene);
