@@ -463,6 +463,10 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   worker.work.time() = {stage.time.step, stage.sweep};
+  // The first rows read beyond surfaces and interfaces before them, too.
+  for (auto step = std::max<std::int64_t>(0, needed.first - sweeps_.reach());
+       step < std::min(needed.first, needed.last); ++step)
+    correct(step);
   if constexpr (D == 2) {
     // All that a row depends on, also rows that have been advanced since.
     const auto read = [&](std::int64_t step) {

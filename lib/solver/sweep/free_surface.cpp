@@ -375,7 +375,8 @@ std::int64_t FreeSurface<D, Real>::corrected(const Index<D>& at) const {
 template <int D, class Real>
 IndexRange FreeSurface<D, Real>::numbers(const IndexRange& lines, const IndexRange& columns) const {
   const auto at = [&](std::int64_t line, std::int64_t x) {
-    return std::lower_bound(keys_.begin(), keys_.end(), line * padded_nx_ + x) - keys_.begin();
+    const auto key = line * padded_nx_ + std::clamp<std::int64_t>(x, 0, padded_nx_);
+    return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
   };
   return {at(lines.first, columns.first), at(lines.last - 1, columns.last)};
 }

@@ -316,9 +316,10 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   }
   if (!anisotropic_cells_.empty())
     anisotropic_cells_.reconstruct(axis, number, columns, *kernels_[false], stride,
-                                   pairs_from(axis, fields + columns.first, pitch, whole_step), material.b, scale,
-                                   outgoing);
-  if (whole_step) add_tractions_beside_void(axis, line, columns, outgoing);
+                                   pairs_from(axis, fields + columns.first, pitch, whole_step), material.b,
+                                   scale, outgoing);
+  for (const int side : {0, 1})
+    if (whole_step && axis == 0) add_tractions_beside_void(axis, side, line, columns, outgoing);
 }
 
 /// From the first cell on.
@@ -621,28 +622,23 @@ void Sweeps<D, Real>::add_surface_tractions(int axis, int side, std::int64_t num
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::add_tractions_beside_void(int axis, const Index<D>& line, const IndexRange& columns,
-                                                OutgoingWaves<Real> outgoing) const {
-  for (const int side : {0, 1}) {
-    const auto& surface = beside_void_[axis][side];
-    if (surface.tractions().empty()) continue;
-    const std::int64_t inward = side ? -1 : 1, along_x = axis == 0 ? inward : 0;
-    Index<D> of_surface = line;
-    if (axis > 0) of_surface[axis] += inward;
-    if (of_surface[axis] < 0 || of_surface[axis] >= state_.layout.shape()[axis]) continue;
-    const auto number = state_.layout.line_number(of_surface);
-    const auto cells =
-        surface.numbers({number, number + 1}, {columns.first + along_x, columns.last + along_x});
-    for (auto n = cells.first; n < cells.last; ++n)
-      for (int p = 0; p < D; ++p) {
-        const auto x = surface.column(n) - along_x - columns.first;
-        const Real traction = surface.tractions().of(p)[n];
-        if (side)
-          outgoing.down(p)[x] += traction;
-        else
-          outgoing.up(p)[x] -= traction;
-      }
-  }
+void Sweeps<D, Real>::add_tractions_beside_void(int axis, int side, const Index<D>& line,
+                                                const IndexRange& columns,
+                                                OutgoingWaves<Real> entering) const {
+  const auto& surface = beside_void_[axis][side];
+  if (surface.tractions().empty()) return;
+  const std::int64_t along_x = axis > 0 ? 0 : side ? -1 : 1;
+  const auto number = state_.layout.line_number(line);
+  const auto cells = surface.numbers({number, number + 1}, {columns.first + along_x, columns.last + along_x});
+  for (auto n = cells.first; n < cells.last; ++n)
+    for (int p = 0; p < D; ++p) {
+      const auto x = surface.column(n) - along_x - columns.first;
+      const Real traction = surface.tractions().of(p)[n];
+      if (side)
+        entering.down(p)[x] += traction;
+      else
+        entering.up(p)[x] -= traction;
+    }
 }
 
 template <int D, class Real>
@@ -867,6 +863,11 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
       const int side = row == 0 ? 0 : 1;
       add_surface_tractions(axis, side, free_surfaces_[axis][side].number(at) + x, n,
                             row == 0 ? above : here);
+    }
+    // Beside void only now: they are known once the row behind that of the surface is there.
+    if (axis == z_axis && scale == 1 && row > 0 && row < rows) {
+      add_tractions_beside_void(axis, 0, line(row), wide, above);
+      add_tractions_beside_void(axis, 1, line(row - 1), wide, here);
     }
     if (advance_bent(axis, at, row, wide, scale, ring, work)) return;
     const auto uniform_runs = [&](std::int64_t k) {

@@ -204,9 +204,9 @@ class Sweeps {
   /// Instead of no traction at a free edge, in a sweep over a whole step, from a cell of it on.
   void add_surface_tractions(int axis, int side, std::int64_t number, std::int64_t count,
                              OutgoingWaves<Real> entering) const;
-  /// The same beside void, whose cells in these columns these waves are of.
-  void add_tractions_beside_void(int axis, const Index<D>& line, const IndexRange& columns,
-                                 OutgoingWaves<Real> outgoing) const;
+  /// The same beside void on that side of the cells of a line, whose waves in these columns enter them.
+  void add_tractions_beside_void(int axis, int side, const Index<D>& line, const IndexRange& columns,
+                                 OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
