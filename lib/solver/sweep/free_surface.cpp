@@ -367,6 +367,7 @@ std::int64_t FreeSurface<D, Real>::key_of(const Index<D>& at) const {
 
 template <int D, class Real>
 std::int64_t FreeSurface<D, Real>::corrected(const Index<D>& at) const {
+  if (empty()) return -1;
   const auto found = number(at);
   if (found == std::int64_t(keys_.size()) || keys_[std::size_t(found)] != key_of(at)) return -1;
   return corrected_[std::size_t(found)] ? found : -1;
