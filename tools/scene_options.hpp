@@ -49,6 +49,8 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add_choice("sides", s.sides, edges,
                      "the same of the left and right boundaries, in 3-D of all four");
   options.add_choice("bottom", s.bottom, edges, "the same of the boundary at the bottom");
+  options.add_choice("ground", s.ground, {"free", "absorbing"},
+                     "the same of the ground below void, where rows of cells begin at it");
   options.add("edge-width", s.edge_width, "CELLS",
               "width of the absorbing zones outside the model; 0: 20, for plane waves 2/3 wavelength");
   options.add("without", s.without, "LIST",

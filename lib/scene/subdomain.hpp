@@ -23,6 +23,7 @@ struct Subdomain {
   bool anisotropic = false;   // whether any part has anisotropic cells
   bool tilted = false;        // whether any part has rock whose axes are turned, in 3-D also any in bent rows
   bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
+  bool has_void = false;      // whether any part has void cells
   /// Of a fitted grid: side_speeds() of the whole model.
   std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};
   double fastest = 0;               // largest vp of the whole model, m/s

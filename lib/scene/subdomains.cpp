@@ -68,6 +68,11 @@ bool has_shear(const Medium<D>& medium) {
 }
 
 template <int D>
+bool has_void(const Medium<D>& medium) {
+  return std::any_of(medium.vp.begin(), medium.vp.end(), [](float vp) { return vp == 0; });
+}
+
+template <int D>
 std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& medium,
                                                               const Subdomain& part) {
   const auto& grid = medium.grid();
@@ -108,6 +113,7 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene) {
       if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = free_surface_reach;
   for (const auto& set : scene.model.fracture_sets)
     if (set.on_faces) surface_reach[0] = free_surface_reach;
+  if (scene.subdomain.has_void || has_void(scene.model.medium)) surface_reach.fill(free_surface_reach);
   const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
                                              reach_of(scene.numerics.order), surface_reach);
   // The first tile of all has one more sweep along x.
@@ -209,11 +215,14 @@ void join(Scene<D>& scene, Ranks& ranks) {
   for (auto& sides : scene.subdomain.side_speeds)
     for (auto& speeds : sides) speeds = allgather(&ranks, speeds);
   scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
+  scene.subdomain.has_void = largest_of(&ranks, has_void(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
 template bool has_shear(const Medium<2>&);
 template bool has_shear(const Medium<3>&);
+template bool has_void(const Medium<2>&);
+template bool has_void(const Medium<3>&);
 template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<2>&, const Subdomain&);
 template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<3>&, const Subdomain&);
 

@@ -19,6 +19,9 @@ std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& m
 /// Whether there is shear stress in a model: in solid cells, and in fluid whose rows are bent.
 template <int D>
 bool has_shear(const Medium<D>& medium);
+/// Whether any cell is void: sweeps then correct free surfaces inside the model.
+template <int D>
+bool has_void(const Medium<D>& medium);
 
 /// Steps of a time tile.
 int steps_of_a_tile(const Tiling& tiling);

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "io/netcdf_file.hpp"
@@ -244,14 +245,38 @@ std::vector<std::string> SceneOptions::idle(const Scene<D>& scene) const {
       sentences.push_back(std::string(option) + " has no effect: there are no receivers");
   if (correction != usual.correction && !scene.slips())
     sentences.push_back("--correction has no effect: nothing in the scene slips");
-  if (edge_width != 0 && top != "absorbing" && sides != "absorbing" && bottom != "absorbing")
+  if (edge_width != 0 && top != "absorbing" && sides != "absorbing" && bottom != "absorbing" &&
+      ground != "absorbing")
     sentences.push_back("--edge-width has no effect: no boundary is absorbing");
   return sentences;
+}
+
+/// The edges of the model are about its box. Where rows begin at the ground, void above is left out, and it
+/// is no edge.
+template <int D>
+void SceneOptions::set_ground(Scene<D>& scene, const Grid<D>& grid) const {
+  const auto begins_at_ground = [&] {
+    if (!grid.rows) return false;
+    const auto& horizons = grid.rows->horizons();
+    const auto top = grid.rows->row(0);
+    return std::any_of(horizons.begin(), horizons.end(),
+                       [](const auto& horizon) { return horizon.row == 0 && horizon.role == "surface"; }) &&
+           std::any_of(top.begin(), top.end(),
+                       [&](double depth_m) { return depth_m > on_face * grid.spacing_m; });
+  };
+  if (begins_at_ground())
+    scene.edges[D - 1][0] = edge_law(ground);
+  else if (ground != "free")
+    throw Error("--ground: found '" + ground +
+                    "' in a model whose rows do not begin at a ground below void, expected free; build the "
+                    "model with --fit surface",
+                ErrorKind::usage);
 }
 
 template <int D>
 std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
   scene.model = read_model<D>(file);
+  set_ground(scene, scene.model.grid());
   std::vector<std::string> warnings;
   for (const auto effect : effects_without())
     if (!has_effect(scene.model, effect))
@@ -276,18 +301,31 @@ template <int D>
 std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
                                                       Ranks* group) const {
   std::vector<std::string> warnings;
+  const auto read_rows = [&](const Grid<D>& grid) {
+    scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
+    const auto [first, last] = rows_held(scene.subdomain);
+    scene.model = read_model_rows<D>(file, first, last);
+  };
   collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
+      set_ground(scene, grid);
       place(scene.survey, read_ground(file, grid, needs_ground(scene.survey)));
       check(scene.survey, grid);
       // Fractures on faces widen what ranks exchange.
       if (file.has_variable("fracture")) scene.model.fracture_sets = read_fracture_sets<D>(file);
-      scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
-      const auto [first, last] = rows_held(scene.subdomain);
-      scene.model = read_model_rows<D>(file, first, last);
+      read_rows(grid);
     } else {
       scene.model = read_model<D>(file);
+      set_ground(scene, scene.model.grid());
+    }
+  });
+  // Void anywhere widens it, too.
+  const bool wider = group && largest_of(group, has_void(scene.model.medium) ? 1 : 0) > 0;
+  collective_try(&all, [&] {
+    if (wider) {
+      scene.subdomain.has_void = true;
+      read_rows(read_model_grid<D>(file));
     }
     warnings = prepare_model(scene);
     if (!group) place_on_model(scene);

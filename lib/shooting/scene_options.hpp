@@ -19,7 +19,7 @@ struct SceneOptions {
   std::string model = "-";
   SurveyOptions survey;
   std::string kind = "explosion", wavelet, record = "vz,vx,p";
-  std::string top = "free", sides = "absorbing", bottom = "absorbing";
+  std::string top = "free", sides = "absorbing", bottom = "absorbing", ground = "free";
   std::string order = "5", time_order = "2", correction = "centred", precision = "float", without,
               executor = "tiled";
   double amplitude = 1, duration_s = 0, interval_s = 0.001, cfl = 0.9;
@@ -54,6 +54,8 @@ struct SceneOptions {
   AttenuationChoice attenuation() const;
   template <int D>
   std::vector<std::string> idle(const Scene<D>& scene) const;
+  template <int D>
+  void set_ground(Scene<D>& scene, const Grid<D>& grid) const;
   template <int D>
   std::vector<std::string> prepare_model(Scene<D>& scene) const;
   std::vector<ModelEffect> effects_without() const;

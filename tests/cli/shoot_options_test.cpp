@@ -65,6 +65,31 @@ TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
   done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
 }
 
+TEST_F(ShootOptions, OfTheBoxLeaveTheGroundInsideItFree) {
+  const std::string here =
+      "sw-shoot hill.nc --wavelet ricker:20 --time 0.1 --receivers 50:350:50,surface "
+      "--source 100,surface+5 --kind force:0,1 ";
+  const auto traces_differ = [&](const std::string& options) {
+    done(here + options + "-o other.sgy");
+    return run("cmp -s <(tail -c +3601 hill.sgy) <(tail -c +3601 other.sgy)").code != 0;
+  };
+  // Rows begin at the ground, or void is inside the grid, on faces and off them.
+  for (const std::string ground : {"sine,50,20,300", "50", "52", "52 --fit none"}) {
+    const auto depth = ground.substr(0, ground.find(' ')), fit = ground.substr(depth.size());
+    done("sw-layers --size 400x200 --step 5 --layer " + depth + ":3000:1500:2200" + fit + " -o hill.nc");
+    done(here + "-o hill.sgy");
+    EXPECT_FALSE(traces_differ("--top absorbing ")) << ground;
+    const bool fitted = ground.front() == 's' || ground == "52";
+    if (fitted) {
+      EXPECT_TRUE(traces_differ("--ground absorbing "));
+      continue;
+    }
+    const auto refused = run(here + "--ground absorbing -o other.sgy");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(has(refused.err, "build the model with --fit surface")) << refused.err;
+  }
+}
+
 TEST_F(ShootOptions, SamplingAndComponentsAreAsAsked) {
   done(shoot + at + "--dt 0.002 --record szz,sxx,sxz,vx -o other.sgy");
   const auto text = info("other.sgy");

@@ -54,7 +54,7 @@ TEST(InterfaceStencils, AreAllCellsWhoseStencilMeetsAnotherImpedance) {
     for (const int axis : {0, 1})
       for (const int reach : {0, 1, 2, 3}) {
         const InterfaceStencils ends(z, mirrors, axis, wave_p, reach,
-                                     RisesFrom<2>([](auto&&...) { return false; }), SlotBefore<2>());
+                                     RisesFrom<2>([](auto&&...) { return false; }), SlotBeside<2>());
         EXPECT_EQ(ends.size(), counted(z, axis, reach))
             << shape[0] << " x " << shape[1] << " cells, axis " << axis << ", reach " << reach;
       }

@@ -39,14 +39,14 @@ template <int D, class Real>
 void PointSource<D, Real>::weigh(const Source<D>& source) {
   using Rows = FieldRows<D>;
   const auto injection = *point_injection(source);
-  centre_ = cell_at(domain_, source.position_m);
-  const double rho = medium_.rho(domain_.model_cell(centre_));
+  side_ = injection.isotropic ? Side::fluid : Side::solid;
+  centre_ = cell_at(domain_, source.position_m, side_);
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
   const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
   const int normal_stresses = Rows::normal_stresses(state_.layout);
   for (int i = 0; i < D; ++i) {
-    add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
+    add_force(source, i, injection.force[std::size_t(i)], volume);
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
     if (!spread && i < normal_stresses)
       add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
@@ -140,12 +140,29 @@ void PointSource<D, Real>::report(ShotReport& report) const {
   report.source_work = std::accumulate(work_.begin(), work_.end(), report.source_work.value_or(0));
 }
 
+/// Spreads a force along an axis with the weights with which receivers read the velocity: each cell takes up
+/// its share with its own mass, so that source and receiver can be exchanged.
+template <int D, class Real>
+void PointSource<D, Real>::add_force(const Source<D>& source, int axis, double newtons, double volume) {
+  if (newtons == 0) return;
+  for (const auto& value :
+       source_weights(state_.layout, domain_, source.position_m, FieldRows<D>::velocity(axis)))
+    add({value}, 0, newtons / (medium_.rho(domain_.model_cell(cell_of_value(value))) * volume));
+}
+
+template <int D, class Real>
+Index<D> PointSource<D, Real>::cell_of_value(const ValueWeight& value) const {
+  auto cell = state_.layout.line_index(value.line);
+  cell[0] = state_.layout.column(value.place);
+  return cell;
+}
+
 /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
 template <int D, class Real>
 void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
   using Rows = FieldRows<D>;
   if (strength != 0)
-    add(source_weights(state_.layout, domain_, source.position_m, like),
+    add(source_weights(state_.layout, domain_, source.position_m, like, side_),
         Rows::stored(state_.layout, row) - Rows::stored(state_.layout, like), strength);
 }
 
@@ -154,7 +171,7 @@ template <int D, class Real>
 bool PointSource<D, Real>::add_smoothly(const Source<D>& source, double strength) {
   using Rows = FieldRows<D>;
   const int like = Rows::normal_stress(D - 1);
-  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like);
+  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like, side_);
   if (weights.empty()) return false;
   reach_ = widest_spread / 2;
   for (int i = 0; i < D; ++i) add(weights, Rows::normal_stress(i) - like, strength);
@@ -166,11 +183,9 @@ void PointSource<D, Real>::add(const std::vector<ValueWeight>& weights, int rows
   for (auto value : weights) {
     value.place += rows_on * state_.layout.row_pitch();
     value.weight *= strength;
-    if (domain_.model_grid.rows) {
-      auto cell = state_.layout.line_index(value.line);
-      cell[0] = state_.layout.column(value.place);
-      value.weight *= domain_.grid.spacing_m / domain_.model_grid.height(domain_.model_cell(cell));
-    }
+    if (domain_.model_grid.rows)
+      value.weight *=
+          domain_.grid.spacing_m / domain_.model_grid.height(domain_.model_cell(cell_of_value(value)));
     values_.push_back(value);
   }
 }

@@ -51,6 +51,8 @@ class PointSource : public Effect<D, Real> {
  private:
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
+  void add_force(const Source<D>& source, int axis, double newtons, double volume);
+  Index<D> cell_of_value(const ValueWeight& value) const;
   void add(const Source<D>& source, int row, int like, double strength);
   bool add_smoothly(const Source<D>& source, double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
@@ -64,6 +66,7 @@ class PointSource : public Effect<D, Real> {
   Wavelet wavelet_;
   double delay_s_;
   double unit_;
+  Side side_ = Side::solid;                  // of an interface of fluid and solid that it is on
   Index<D> centre_{};                        // the cell of the source, which may lie beyond this subdomain
   std::int64_t reach_ = widest_stencil / 2;  // of the weights of a source in that cell, in cells
   std::vector<ValueWeight> values_;

@@ -20,7 +20,8 @@ std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain
   std::vector<ValueWeight> all;
   for (const auto& term : terms) {
     const int field_row = row_of<D>(term.field);
-    const auto weights = term.along < 0 ? row_weights(layout, domain, point_m, field_row)
+    const Side side = component == Component::p ? Side::fluid : Side::solid;
+    const auto weights = term.along < 0 ? row_weights(layout, domain, point_m, field_row, side)
                                         : gradient->weights(layout, field_row, std::min(term.along, D - 1));
     for (auto weight : weights) {
       weight.weight /= term.sign * (row.is_sum ? 1 : int(terms.size()));

@@ -372,14 +372,15 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     const auto behind = sweeps_.rows_behind(), flank_rows = surface_rows(1);
     const IndexRange steps{lines.first == 0 ? 0 : lines.first + behind, lines.last + behind};
     // What is beyond the last line is read some steps before that line is advanced.
-    const bool low = lines.first == 0, high = steps.first <= cut_cells_ && steps.last > cut_cells_;
+    const bool high = steps.first <= cut_cells_ && steps.last > cut_cells_;
     if (flank_rows > 0 && row >= 0 && row < rows_) {
-      if (low) sweeps_.retain(1, line_of(row, 0), whole_lines());
+      for (auto y = steps.first; y < std::min(steps.last, cut_cells_); ++y)
+        sweeps_.retain(1, line_of(row, y), whole_lines());
       if (high) sweeps_.retain(1, line_of(row, cut_cells_ - 1), whole_lines());
     }
     row -= flank_rows;
     if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
-    if (low || high) sweeps_.correct_flank_surfaces(row);
+    sweeps_.correct_flank_surfaces(row, steps);
     worker.work.time() = {stage.time.step, stage.sweep};
     each_chunk([&](const IndexRange& cells) {
       march(
@@ -462,6 +463,10 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   worker.work.time() = {stage.time.step, stage.sweep};
+  // The first rows read beyond surfaces and interfaces before them, too.
+  for (auto step = std::max<std::int64_t>(0, needed.first - sweeps_.reach());
+       step < std::min(needed.first, needed.last); ++step)
+    correct(step);
   if constexpr (D == 2) {
     // All that a row depends on, also rows that have been advanced since.
     const auto read = [&](std::int64_t step) {

@@ -18,17 +18,31 @@ double& component(RowVector<D, double>& vector, int axis) {
   return vector.x;
 }
 
-/// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
+/// The velocities round a cell of a free surface.
 template <int D>
-bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
-                    std::vector<SurfaceTerm<D>>& terms) {
-  for (std::size_t k = 0; k < offsets_along.size(); ++k) {
-    Index<D> offset{};
-    offset[std::size_t(along)] = offsets_along[k];
-    if (!add_term(domain, at, offset, row, factor * weights_along[k], terms)) return false;
+class AlongSurface {
+ public:
+  AlongSurface(const Domain<D>& domain, const Index<D>& at, int axis, int side)
+      : domain_(domain), at_(at), axis_(axis), side_(side) {}
+
+  /// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
+  bool add_difference(int along, int row, double factor) {
+    for (std::size_t k = 0; k < offsets_along.size(); ++k) {
+      Index<D> offset{};
+      offset[std::size_t(along)] = offsets_along[k];
+      if (!add_term(domain_, at_, offset, row, factor * weights_along[k], terms_)) return false;
+      if (!ends_at_free_surface(domain_, terms_.back().cell, axis_, side_)) return false;
+    }
+    return true;
   }
-  return true;
-}
+  const std::vector<SurfaceTerm<D>>& terms() const { return terms_; }
+
+ private:
+  const Domain<D>& domain_;
+  Index<D> at_;
+  int axis_, side_;
+  std::vector<SurfaceTerm<D>> terms_;
+};
 
 /// The same of a bent row at an end of z: all velocities of the neighbours take part.
 template <int D>
@@ -37,7 +51,7 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
   const double mu = zs * zs / (zp * zp), outward = side ? -1 : 1,
                factor = outward * height / dot(normal, normal);
-  std::vector<SurfaceTerm<D>> terms;
+  AlongSurface<D> velocities(domain, at, D - 1, side);
   for (int along = 0; along < D - 1; ++along) {
     if (thin(domain, along)) {
       if (ends_free(domain, along)) return {};
@@ -48,11 +62,10 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
       component(one[std::size_t(along)], of) = 1;
       auto bend = scaled(normal, factor, factor / mu, traction_of_motion_along<D>(normal, 1.0, mu, one));
       const double share = component(bend, row);
-      if (share != 0 && !add_difference(domain, at, along, FieldRows<D>::velocity(of), share, terms))
-        return {};
+      if (share != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), share)) return {};
     }
   }
-  return terms;
+  return velocities.terms();
 }
 
 /// The same of an anisotropic cell: the tensor of N times what it bends is the traction of motion along the
@@ -65,7 +78,7 @@ std::vector<SurfaceTerm<D>> anisotropic_bent_slope(const Domain<D>& domain, cons
   const auto n = normal_in_grid<D>(normal);
   const auto over = inverse_of(christoffel<D>(c, n));
   const double outward = (side ? -1 : 1) * height;
-  std::vector<SurfaceTerm<D>> terms;
+  AlongSurface<D> velocities(domain, at, D - 1, side);
   for (int along = 0; along < D - 1; ++along) {
     if (thin(domain, along)) {
       if (ends_free(domain, along)) return {};
@@ -74,23 +87,21 @@ std::vector<SurfaceTerm<D>> anisotropic_bent_slope(const Domain<D>& domain, cons
     const auto bend = product_of(over, tractions<D>(c, n, unit_vector<std::size_t(D)>(std::size_t(along))));
     for (int of = 0; of < D; ++of) {
       const double share = outward * bend[std::size_t(row)][std::size_t(of)];
-      if (share != 0 && !add_difference(domain, at, along, FieldRows<D>::velocity(of), share, terms))
-        return {};
+      if (share != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), share)) return {};
     }
   }
-  return terms;
+  return velocities.terms();
 }
 
 /// Adds what motion along one axis of the edge bends of a velocity in rock whose axes are turned; false where
 /// there is no difference.
 template <int D>
-bool add_turned(const Domain<D>& domain, const Elasticity<D>& elasticity, const Index<D>& at, int axis,
-                int along, int row, double outward, std::vector<SurfaceTerm<D>>& terms) {
+bool add_turned(const Elasticity<D>& elasticity, int axis, int along, int row, double outward,
+                AlongSurface<D>& velocities) {
   const auto coupling = edge_coupling<D>(elasticity, axis, along);
   for (int of = 0; of < D; ++of) {
     const double factor = outward * coupling[std::size_t(row)][std::size_t(of)];
-    if (factor != 0 && !add_difference(domain, at, along, FieldRows<D>::velocity(of), factor, terms))
-      return false;
+    if (factor != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), factor)) return false;
   }
   return true;
 }
@@ -159,7 +170,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
   const double zs = domain.impedance(wave_s)(at);
   const bool bent = domain.bent(at[D - 1]);
   // On bent rows sides keep the plain mirror image.
-  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0 || (bent && axis < D - 1)) return {};
+  if (!ends_at_free_surface(domain, at, axis, side) || zs == 0 || (bent && axis < D - 1)) return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {
     Index<D> next = before;
@@ -171,7 +182,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
   if (bent && domain.anisotropic_cell(at)) return anisotropic_bent_slope(domain, at, side, row);
   if (bent) return bent_slope(domain, at, side, row);
   const double height = domain.height(at[D - 1]);
-  std::vector<SurfaceTerm<D>> terms;
+  AlongSurface<D> velocities(domain, at, axis, side);
   for (int along = 0; along < D; ++along) {
     if (along == axis) continue;
     // The first ghost lies a cell of this axis away, neighbours along the edge one of the other.
@@ -181,11 +192,11 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       continue;
     }
     if (const auto* const medium = domain.anisotropic_medium(at)) {
-      if (!add_turned(domain, medium->elasticity, at, axis, along, row, outward, terms)) return {};
+      if (!add_turned(medium->elasticity, axis, along, row, outward, velocities)) return {};
       continue;
     }
     const auto add = [&](int of, double factor) {
-      return factor == 0 || add_difference(domain, at, along, Rows::velocity(of), outward * factor, terms);
+      return factor == 0 || velocities.add_difference(along, Rows::velocity(of), outward * factor);
     };
     bool found = true;
     if (row == Rows::velocity(axis))
@@ -194,61 +205,122 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       found = add(axis, 1);
     if (!found) return {};
   }
-  return terms;
+  return velocities.terms();
+}
+
+template <int D, class Real>
+FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, int axis, int side, bool inside)
+    : axis_(axis),
+      side_(side),
+      inside_(inside),
+      outward_(side ? -1 : 1),
+      padded_nx_(layout.padded_nx()),
+      shape_(layout.shape()) {
+  // Only whole sweeps take tractions, and there are none along y.
+  if (axis == 0) retained_cells_ = 2, retained_rows_ = int(layout.rows());
 }
 
 template <int D, class Real>
 FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& domain, int axis, int side)
-    : axis_(axis),
-      side_(side),
-      outward_(side ? -1 : 1),
-      padded_nx_(layout.padded_nx()),
-      shape_(layout.shape()) {
-  const auto kind = domain.material_kind();
-  const Layout<D> material(shape_, material_rows_of<D>(kind));
+    : FreeSurface(layout, axis, side, false) {
+  if (domain.edges[axis][side] != EdgeLaw::free) return;
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
-  for (std::int64_t n = 0; n < edge.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
-    Index<D> at = edge.index(n);
-    at[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
-    int pair = 0;
-    const auto add = [&](int row, int impedance_row) {
-      const auto terms = surface_slope(domain, at, axis, side, row);
-      const auto begin = terms_.size();
-      for (const auto& term : terms)
-        terms_.push_back({axis < D - 1 ? number(term.cell) * D + term.row
-                                       : layout.cell(term.cell) + term.row * layout.row_pitch(),
-                          Real(term.weight)});
-      const auto place = [&](int material_row) {
-        return material.cell(at) + material_row * material.row_pitch();
-      };
-      const double height = axis == D - 1 ? domain.height(at[D - 1]) : 1;
-      if (!terms.empty())
-        cells_.push_back({pair, number(at), place(row_b), place(impedance_row), Real(outward_ / height),
-                          begin, terms_.size()});
-      if (pair == 0 && !terms.empty() && domain.bent(at[D - 1])) {
-        const auto [normal, rows_height] = end_of_rows(domain, at, side);
-        BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
-        end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
-        if constexpr (D == 3) end.normal.y = Real(normal.y);
-        if (domain.anisotropic_cell(at)) find_tensor(domain, at, normal, outward_ / rows_height, end);
-        end.factor = Real(dot(normal, normal) * outward_ / rows_height);
-        bent_ends_.push_back(end);
-      }
-      ++pair;
-      if (pair == D && !terms.empty() && domain.anisotropic_cell(at) && !domain.bent(at[D - 1]))
-        tilted_ends_.push_back({number(at), place(row_b), mixed_stiffness(domain, at, outward_ / height)});
-    };
-    add(FieldRows<D>::velocity(axis), p_row<D>(kind, axis));
-    for (int along = 0; along < D; ++along)
-      if (along != axis) add(FieldRows<D>::velocity(along), s_row<D>(kind, axis, along));
+  std::vector<Index<D>> cells;
+  for (std::int64_t n = 0; n < edge.size(); ++n) {
+    cells.push_back(edge.index(n));
+    cells.back()[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
   }
-  if (cells_.empty()) return;
+  find_corrections(layout, domain, cells);
+}
+
+template <int D, class Real>
+FreeSurface<D, Real> FreeSurface<D, Real>::beside_void(const Layout<D>& layout, const Domain<D>& domain,
+                                                       int axis, int side) {
+  FreeSurface surface(layout, axis, side, true);
+  const auto& p_waves = domain.impedance(wave_p);
+  const auto& grid = domain.grid;
+  if (std::none_of(p_waves.begin(), p_waves.end(), [](float z) { return z == 0; })) return surface;
+  std::int64_t stride = side ? 1 : -1;
+  for (int other = 0; other < axis; ++other) stride *= grid.shape[std::size_t(other)];
+  const float* const z = p_waves.data();
+  std::vector<Index<D>> cells;
+  for (std::int64_t n = std::max<std::int64_t>(0, -stride),
+                    last = grid.size() - std::max<std::int64_t>(0, stride);
+       n < last; ++n) {
+    if (z[n] == 0 || z[n + stride] > 0) continue;
+    const auto at = grid.index(n);
+    if (at[std::size_t(axis)] == (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
+    // Beside void in bent rows InterfaceCorrections serve.
+    if (axis == D - 1 && domain.bent(at[D - 1])) continue;
+    cells.push_back(at);
+    surface.keys_.push_back(surface.key_of(at));
+    surface.places_.push_back(layout.cell(at));
+  }
+  surface.find_corrections(layout, domain, cells);
+  return surface;
+}
+
+template <int D, class Real>
+void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domain<D>& domain,
+                                            const std::vector<Index<D>>& cells) {
+  if (inside_) corrected_.assign(cells.size(), 0);
+  for (const auto& at : cells) find_corrections(layout, domain, at);
+  if (empty()) return;
   Index<D> last = shape_;
   for (auto& n : last) --n;
-  if (axis < D - 1) retained_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
+  const auto size = inside_ ? std::int64_t(cells.size()) : number(last) + padded_nx_;
+  if (axis_ < D - 1) retained_.assign(std::size_t(size * retained_cells_ * retained_rows_), 0);
   for (auto* lists : {&velocity_corrections_, &traction_corrections_})
-    for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
+    for (auto& list : *lists) list.assign(std::size_t(size), 0);
+  // Sweeps along the axes between are halves.
+  if (axis_ > 0 && axis_ < D - 1) return;
+  tractions_ = SurfaceTractions<D, Real>(axis_, side_, size);
+  const Layout<D> material(shape_, material_rows_of<D>(domain.material_kind()));
+  for (const auto& at : cells)
+    if (!inside_ || corrected(at) >= 0)
+      tractions_.add(domain, at, number(at), place_of(layout, at, 0, 0),
+                     material.cell(at) + row_b * material.row_pitch(),
+                     [&](const Index<D>& cell, int behind, int row) {
+                       return place_of(layout, cell, behind, row) - place_of(layout, at, 0, 0);
+                     });
+  tractions_.finish();
+}
+
+/// Of all pairs.
+template <int D, class Real>
+void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domain<D>& domain,
+                                            const Index<D>& at) {
+  const auto kind = domain.material_kind();
+  const Layout<D> material(shape_, material_rows_of<D>(kind));
+  const auto place = [&](int material_row) {
+    return material.cell(at) + material_row * material.row_pitch();
+  };
+  const double outward = outward_ / (axis_ == D - 1 ? domain.height(at[D - 1]) : 1);
+  bool found = false;
+  for (int pair = 0; pair < D; ++pair) {
+    const int along = pair == 0 ? axis_ : axis_of_pair<D>(axis_, pair);
+    const auto terms = surface_slope(domain, at, axis_, side_, FieldRows<D>::velocity(along));
+    found = !terms.empty();
+    if (!found) continue;
+    const auto begin = terms_.size();
+    for (const auto& term : terms)
+      terms_.push_back({place_of(layout, term.cell, 0, term.row), Real(term.weight)});
+    const int impedance_row = pair == 0 ? p_row<D>(kind, axis_) : s_row<D>(kind, axis_, along);
+    cells_.push_back(
+        {pair, number(at), place(row_b), place(impedance_row), Real(outward), begin, terms_.size()});
+    if (inside_) corrected_[std::size_t(number(at))] = 1;
+    if (pair > 0 || !domain.bent(at[D - 1])) continue;
+    const auto [normal, height] = end_of_rows(domain, at, side_);
+    BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
+    end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
+    if constexpr (D == 3) end.normal.y = Real(normal.y);
+    if (domain.anisotropic_cell(at)) find_tensor(domain, at, normal, outward_ / height, end);
+    end.factor = Real(dot(normal, normal) * outward_ / height);
+    bent_ends_.push_back(end);
+  }
+  if (found && domain.anisotropic_cell(at) && !domain.bent(at[D - 1]))
+    tilted_ends_.push_back({number(at), place(row_b), mixed_stiffness(domain, at, outward)});
 }
 
 template <int D, class Real>
@@ -277,6 +349,7 @@ auto FreeSurface<D, Real>::mixed_stiffness(const Domain<D>& domain, const Index<
 
 template <int D, class Real>
 std::int64_t FreeSurface<D, Real>::number(const Index<D>& at) const {
+  if (inside_) return std::lower_bound(keys_.begin(), keys_.end(), key_of(at)) - keys_.begin();
   std::int64_t number = 0;
   for (int other = D - 1; other >= 0; --other)
     if (other != axis_)
@@ -285,14 +358,56 @@ std::int64_t FreeSurface<D, Real>::number(const Index<D>& at) const {
 }
 
 template <int D, class Real>
-void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line) {
-  const auto at = state.layout.line_index(line);
-  const bool along_x = axis_ > 0;
-  const Real* const cell = state.field_row(at, 0) + (!along_x && side_ ? shape_[0] - 1 : 0);
-  Real* const retained = retained_.data() + number(at) * D;
-  for (std::int64_t x = 0; x < (along_x ? shape_[0] : 1); ++x)
-    for (int row = 0; row < D; ++row)
-      retained[x * D + row] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch() + x];
+std::int64_t FreeSurface<D, Real>::key_of(const Index<D>& at) const {
+  std::int64_t key = 0;
+  for (int axis = D - 1; axis >= 0; --axis)
+    key = key * (axis == 0 ? padded_nx_ : shape_[std::size_t(axis)]) + at[std::size_t(axis)];
+  return key;
+}
+
+template <int D, class Real>
+std::int64_t FreeSurface<D, Real>::corrected(const Index<D>& at) const {
+  if (empty()) return -1;
+  const auto found = number(at);
+  if (found == std::int64_t(keys_.size()) || keys_[std::size_t(found)] != key_of(at)) return -1;
+  return corrected_[std::size_t(found)] ? found : -1;
+}
+
+template <int D, class Real>
+IndexRange FreeSurface<D, Real>::numbers(const IndexRange& lines, const IndexRange& columns) const {
+  const auto at = [&](std::int64_t line, std::int64_t x) {
+    const auto key = line * padded_nx_ + std::clamp<std::int64_t>(x, 0, padded_nx_);
+    return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
+  };
+  return {at(lines.first, columns.first), at(lines.last - 1, columns.last)};
+}
+
+template <int D, class Real>
+std::int64_t FreeSurface<D, Real>::place_of(const Layout<D>& layout, const Index<D>& at, int behind,
+                                            int row) const {
+  if (axis_ < D - 1) return (number(at) * retained_cells_ + behind) * retained_rows_ + row;
+  return layout.cell(at) + behind * outward_ * layout.stride(axis_) + row * layout.row_pitch();
+}
+
+template <int D, class Real>
+void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line, const IndexRange& columns) {
+  const auto copy = [&](std::int64_t number, std::int64_t place, std::int64_t cells) {
+    Real* retained = retained_.data() + number * retained_cells_ * retained_rows_;
+    const Real* const from = state.fields.data() + place;
+    for (std::int64_t x = 0; x < cells; ++x)
+      for (int behind = 0; behind < retained_cells_; ++behind)
+        for (int row = 0; row < retained_rows_; ++row)
+          *retained++ = from[row * state.layout.row_pitch() + x + behind * outward_];
+  };
+  if (inside_) {
+    const auto here = numbers({line, line + 1}, columns);
+    for (auto number = here.first; number < here.last; ++number)
+      copy(number, places_[std::size_t(number)], 1);
+    return;
+  }
+  auto at = state.layout.line_index(line);
+  if (axis_ == 0 && side_) at[0] = shape_[0] - 1;
+  copy(number(at), state.layout.cell(at), axis_ > 0 ? shape_[0] : 1);
 }
 
 template <int D, class Real>
@@ -313,6 +428,7 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, std::
   }
   correct_tilted_ends(state, first, last);
   correct_bent_ends(state, first, last);
+  tractions_.update(fields, material, first, last);
 }
 
 /// Tractions that the bend of one velocity puts on the other component (theory.md (V7)).

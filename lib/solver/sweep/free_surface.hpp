@@ -9,6 +9,7 @@
 #include "solver/kernels/bent_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
+#include "solver/sweep/surface_tractions.hpp"
 
 namespace slipwave::solver {
 
@@ -40,41 +41,53 @@ bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offse
 template <int D>
 std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side);
 
-/// The corrections of the antisymmetric extension of solids beyond a free surface of the grid (v even, s
-/// odd): the correction of velocity is surface_slope(); the correction of traction removes what sweeps along
-/// the edge have added to its tractions when a sweep across it begins, half of what they add in a whole step.
+/// Free surfaces across one axis on one side of cells (0 low, 1 high): an edge of the grid, or all faces
+/// between cells and void inside it. In sweeps across it holds the corrections of the antisymmetric extension
+/// of solids beyond (v even, s odd): the correction of velocity is surface_slope(); the correction of
+/// traction removes what sweeps along the surface have added to its tractions when a sweep across it begins,
+/// half of what they add in a whole step. And it holds what stands for no traction (SurfaceTractions).
 template <int D, class Real>
 class FreeSurface {
  public:
   FreeSurface() = default;
-  /// One side (0 low, 1 high) of an axis. Empty where the edge has another law.
+  /// An edge of the grid. Empty where it has another law.
   FreeSurface(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
+  /// Cells, in level rows if the axis is the last, that void is beside.
+  static FreeSurface beside_void(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
 
   bool empty() const { return cells_.empty(); }
   std::int64_t memory_bytes() const {
     return bytes_of(cells_) + bytes_of(bent_ends_) + bytes_of(tilted_ends_) + bytes_of(terms_) +
-           bytes_of(retained_) + bytes_of(velocity_corrections_) + bytes_of(traction_corrections_);
+           bytes_of(retained_) + bytes_of(keys_) + bytes_of(places_) + bytes_of(corrected_) +
+           bytes_of(velocity_corrections_) + bytes_of(traction_corrections_) + tractions_.memory_bytes();
   }
-  /// Copies the velocities of the edge's cells on this row as they are now, at an edge of another axis than
-  /// the last: update_corrections() reads the copy, since sweeps change row after row.
-  void retain(const State<D, Real>& state, std::int64_t line);
-  /// Computes velocity_correction() and traction_correction() at cells first <= number < last of the edge for
-  /// the following sweep across it, from the fields or the copy, up to
-  /// free_surface_reach cells beyond.
+  /// Copies the fields of the surface's cells on this row as they are now, across another axis than the last:
+  /// update_corrections() reads the copy, since sweeps change row after row. Beside void those in these
+  /// columns.
+  void retain(const State<D, Real>& state, std::int64_t line, const IndexRange& columns = {});
+  /// Computes all below at cells first <= number < last for the following sweep across, from the fields or
+  /// the copy, up to free_surface_reach cells beyond.
   void update_corrections(const State<D, Real>& state, std::int64_t first, std::int64_t last);
-  /// Of a pair of the sweep across (0 P, then S by axes), at the cells of the edge (number()): the correction
-  /// of v over 2 j + 1, and that of s in a sweep over a whole step.
+  /// Of a pair of the sweep across (0 P, then S by axes), by number: the correction of v over 2 j + 1, and
+  /// that of s in a sweep over a whole step.
   const Real* velocity_correction(int pair) const { return velocity_corrections_[std::size_t(pair)].data(); }
   const Real* traction_correction(int pair) const { return traction_corrections_[std::size_t(pair)].data(); }
-  /// Place of a cell of the edge in these lists: cells along x follow each other.
+  const SurfaceTractions<D, Real>& tractions() const { return tractions_; }
+  /// Place of a cell of the surface in these lists; at an edge cells along x follow each other.
   std::int64_t number(const Index<D>& at) const;
+  /// Beside void: the number of a cell, or -1 where nothing is corrected.
+  std::int64_t corrected(const Index<D>& at) const;
+  /// Beside void: the numbers of the cells in these columns of lines that follow each other.
+  IndexRange numbers(const IndexRange& lines, const IndexRange& columns) const;
+  /// Beside void: the column of a cell.
+  std::int64_t column(std::int64_t number) const { return keys_[std::size_t(number)] % padded_nx_; }
 
  private:
   struct Term {
     std::int64_t place;
     Real weight;
   };
-  /// One pair at one cell of the edge; the places of b and of the pair's impedance in the material.
+  /// One pair at one cell of the surface; the places of b and of the pair's impedance in the material.
   struct Cell {
     int pair;
     std::int64_t number, b, impedance;
@@ -90,6 +103,12 @@ class FreeSurface {
     bool anisotropic = false;
     SmallMatrix<std::size_t(D), Real> tensor{};
   };
+  FreeSurface(const Layout<D>& layout, int axis, int side, bool inside);
+  void find_corrections(const Layout<D>& layout, const Domain<D>& domain, const std::vector<Index<D>>& cells);
+  void find_corrections(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& at);
+  std::int64_t key_of(const Index<D>& at) const;
+  /// Place of a field of a cell of the surface, or of the one behind it, in what update_corrections() reads.
+  std::int64_t place_of(const Layout<D>& layout, const Index<D>& at, int behind, int row) const;
   static void find_tensor(const Domain<D>& domain, const Index<D>& at, const RowVector<D, double>& normal,
                           double factor, BentEnd& end);
   void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
@@ -105,15 +124,22 @@ class FreeSurface {
   void correct_tilted_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
 
   int axis_ = 0, side_ = 0;
-  Real outward_ = 1;
+  bool inside_ = false;
+  int outward_ = 1;
   std::int64_t padded_nx_ = 0;
   Index<D> shape_{};
+  /// Inside the grid, by number: the cells, lines padded; their places in the fields; and whether they are
+  /// corrected.
+  std::vector<std::int64_t> keys_, places_;
+  std::vector<char> corrected_;
   std::vector<Cell> cells_;  // by number
   std::vector<BentEnd> bent_ends_;
   std::vector<TiltedEnd> tilted_ends_;
-  std::vector<Term> terms_;     // places in the fields, at the edges of all axes but the last in retained_
-  std::vector<Real> retained_;  // [number][velocity]
+  std::vector<Term> terms_;     // places in the fields, across all axes but the last in retained_
+  std::vector<Real> retained_;  // [number][cell of the surface, the one behind it][row]
+  int retained_cells_ = 1, retained_rows_ = D;
   std::array<std::vector<Real>, D> velocity_corrections_, traction_corrections_;
+  SurfaceTractions<D, Real> tractions_;
 };
 
 }  // namespace slipwave::solver

@@ -80,8 +80,8 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   if (carries(wave_s, above) == carries(wave_s, below)) return false;
   const double z_above = domain.impedance(wave_p)(above), z_below = domain.impedance(wave_p)(below);
   if (z_above == 0 || z_below == 0) {
-    // Beside void level rows keep the mirror image.
-    if (!bent_face(domain, below[D - 1])) return false;
+    // Level rows have FreeSurface.
+    if (!domain.bent(below[D - 1] - (z_below == 0 ? 1 : 0))) return false;
   } else if (z_above > gas_ratio * z_below || z_below > gas_ratio * z_above) {
     return false;
   }

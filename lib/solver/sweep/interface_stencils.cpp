@@ -281,8 +281,15 @@ void extend(const InterfaceStencil& stencil, int offset, const PairOfLine<Real>&
     v_at += twice * (pair.v(across) - v_at);
     s_at += (2 - twice) * (pair.s(across) - s_at);
   }
-  if (slot < 0) return;
+  if (slot == -1) return;
   const int ghost = below ? -stencil.low - 1 - offset : offset - stencil.high - 1;
+  if (slot < 0) {
+    const auto& surface = pair.corrections.beside_void[below ? 0 : 1];
+    const auto n = of_void(slot);
+    v_at += Real(2 * ghost + 1) * (surface.bend ? surface.v[n] + surface.bend[n] : surface.v[n]);
+    s_at += pair.scale * surface.s[n];
+    return;
+  }
   v_at += Real(2 * ghost + 1) * pair.corrections.v[slot];
   s_at += (below ? 2 : -2) * (1 - share) * pair.scale * pair.corrections.s[slot];
 }
@@ -341,7 +348,7 @@ int ReachBounds::at(std::int64_t cell, int reach) const {
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
                                      int reach, const RisesFrom<D>& rises_from,
-                                     const SlotBefore<D>& slot_before, const TiltedFaces<D>& tilted,
+                                     const SlotBeside<D>& slot_beside, const TiltedFaces<D>& tilted,
                                      const PartedLine<D>& parted, const ReachBounds& bounds)
     : wave_(wave) {
   const auto& grid = impedance.grid();
@@ -369,16 +376,16 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       const int at_most = bounds.at(line * nx + x, reach_beside_tilted(down, up, reach));
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
-        const auto slot = [&](const Side& side, std::int64_t cells) {
-          Index<D> face = at;
-          face[std::size_t(axis)] += cells;
-          if (side.parted >= 0) return side.parted;
-          return side.inside && slot_before ? slot_before(face) : -1;
+        const auto slot = [&](const Side& of, int side) {
+          Index<D> last = at;
+          last[std::size_t(axis)] += side ? of.cells : -of.cells;
+          if (of.parted >= 0) return of.parted;
+          return of.inside && slot_beside ? slot_beside(last, side) : -1;
         };
-        const auto slot_low = slot(low, -low.cells), slot_high = slot(high, high.cells + 1);
+        const auto slot_low = slot(low, 0), slot_high = slot(high, 1);
         int within = reach_within(low, high, reach_up_to(to_contrast, most_reach_at_mirrors, reach));
-        if (slot_low >= 0) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
-        if (slot_high >= 0) within = reach_up_to(high.cells, most_reach_at_contrasts, within);
+        if (slot_low != -1) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
+        if (slot_high != -1) within = reach_up_to(high.cells, most_reach_at_contrasts, within);
         within = std::min(within, at_most);
         cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
                           std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
@@ -456,11 +463,11 @@ template void extended_pair(const InterfaceStencil&, int, std::int64_t, const do
                             const PairCorrections<double>&, double, double*, double*, const double*,
                             std::int64_t);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
-                                              const RisesFrom<2>&, const SlotBefore<2>&,
+                                              const RisesFrom<2>&, const SlotBeside<2>&,
                                               const TiltedFaces<2>&, const PartedLine<2>&,
                                               const ReachBounds&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
-                                              const RisesFrom<3>&, const SlotBefore<3>&,
+                                              const RisesFrom<3>&, const SlotBeside<3>&,
                                               const TiltedFaces<3>&, const PartedLine<3>&,
                                               const ReachBounds&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -76,8 +77,10 @@ struct InterfaceStencil {
   std::int8_t beyond_low, beyond_high;  // interface: cells beyond it that may be read
   float share_low, share_high;          // interface: Z of the other side over the sum of both
   std::int8_t reach;  // of the reconstruction used here, not_carried where the wave is not carried
-  std::int32_t slot_low = -1, slot_high = -1;  // of InterfaceCorrections, -1: none
+  std::int32_t slot_low = -1, slot_high = -1;  // of InterfaceCorrections, -1: none, less: of_void()
 };
+/// The slot that stands for a number of FreeSurface, and back.
+constexpr std::int32_t of_void(std::int64_t number) { return std::int32_t(-2 - number); }
 constexpr std::int8_t not_carried = -1;
 /// One of which no end is within reach.
 constexpr InterfaceStencil whole_stencil(std::int32_t x, int reach) {
@@ -91,9 +94,10 @@ constexpr InterfaceStencil whole_stencil(std::int32_t x, int reach) {
 template <int D>
 using RisesFrom = std::function<bool(const Index<D>& at, int side)>;
 
-/// Slot of the corrections (InterfaceCorrections) at the face between a cell and the one before it, or -1.
+/// Slot of the corrections on a side (0 low, 1 high) of a cell: of InterfaceCorrections, or beside void
+/// of_void(), or -1.
 template <int D>
-using SlotBefore = std::function<std::int32_t(const Index<D>& at)>;
+using SlotBeside = std::function<std::int32_t(const Index<D>& at, int side)>;
 /// The extension of one side of a parted face (theory.md (S36)): what its mirror image gains, v over 2 j + 1,
 /// s at the beginning of a sweep and besides in one over a whole step; and how stiff the fracture is for
 /// waves of half a cell. The other side is the slot that differs in the last bit.
@@ -108,6 +112,12 @@ template <class Real>
 struct PairCorrections {
   const Real *v, *s;
   const SplitImage<Real>* parted = nullptr;
+  /// By number of FreeSurface, of the low and the high side of cells: of v over 2 j + 1, of s, and what v
+  /// gains besides, null but in whole sweeps.
+  struct BesideVoid {
+    const Real *v, *s, *bend;
+  };
+  std::array<BesideVoid, 2> beside_void{};
 };
 
 /// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
@@ -168,7 +178,7 @@ class InterfaceStencils {
   /// tilted means, which part what would be a strong interface in two.
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                    const RisesFrom<D>& rises_from, const SlotBefore<D>& slot_before,
+                    const RisesFrom<D>& rises_from, const SlotBeside<D>& slot_beside,
                     const TiltedFaces<D>& tilted = {}, const PartedLine<D>& parted = {},
                     const ReachBounds& bounds = {});
   /// That of a cell, null where the bulk kernel serves.

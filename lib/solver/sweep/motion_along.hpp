@@ -42,6 +42,20 @@ bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) 
   return true;
 }
 
+/// Whether a cell of rock or fluid ends at a free surface on a side (0 low, 1 high) of an axis: at a free
+/// edge of the grid, or at void.
+template <int D>
+bool ends_at_free_surface(const Domain<D>& domain, const Index<D>& at, int axis, int side) {
+  const auto& p_waves = domain.impedance(wave_p);
+  Index<D> beyond = at;
+  auto& place = beyond[std::size_t(axis)];
+  place += side ? 1 : -1;
+  if (p_waves(at) == 0) return false;
+  if (place < 0 || place >= domain.grid.shape[std::size_t(axis)])
+    return domain.edges[axis][side] == EdgeLaw::free;
+  return p_waves(beyond) == 0;
+}
+
 /// The rate of the traction on a face with the vector N (its z is 1) of the stresses that motion along the
 /// face alone builds up: N . C : (e (x) dv/dx), with the differences dv/dx of velocity over a cell along x,
 /// in 3-D also y, and the moduli lambda + 2 mu and mu (theory.md (E11a)).

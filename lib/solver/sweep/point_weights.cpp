@@ -8,6 +8,7 @@
 
 #include "grid/locate.hpp"
 #include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -48,44 +49,79 @@ bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<
   return false;
 }
 
+/// Visits the cells of a box whose place along an axis is `layer`, until one is not `fit`.
+template <int D, class Fit>
+bool all_of_layer(const std::array<AxisCells, std::size_t(D)>& box, std::size_t axis, std::int64_t layer,
+                  Fit&& fit) {
+  Index<D> at;
+  for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
+  at[axis] = layer;
+  for (;;) {
+    if (!fit(at)) return false;
+    std::size_t other = 0;
+    for (; other < D; ++other) {
+      if (other == axis) continue;
+      if (++at[other] <= box[other].high) break;
+      at[other] = box[other].low;
+    }
+    if (other == D) return true;
+  }
+}
+
+/// A box of cells, and where it ends at free surfaces, which all its cells at that end have.
+template <int D>
+struct Box {
+  std::array<AxisCells, std::size_t(D)> cells;
+  std::array<std::array<bool, 2>, std::size_t(D)> ends_free{};
+};
+
 /// The largest box round a cell of cells that are `alike(cell, the next one towards the centre)`, grown one
 /// layer at a time on each side, by `rings` at most and, where `longest` is given, until it is that long.
 template <int D, class Alike>
-std::array<AxisCells, D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings,
-                                   std::int64_t longest, Alike&& alike) {
-  std::array<AxisCells, D> box;
-  for (std::size_t axis = 0; axis < D; ++axis) box[axis].low = box[axis].high = centre[axis];
+Box<D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings, std::int64_t longest,
+                 Alike&& alike) {
+  Box<D> box;
+  for (std::size_t axis = 0; axis < D; ++axis) box.cells[axis].low = box.cells[axis].high = centre[axis];
+  const auto find_surfaces = [&](std::size_t axis) {
+    for (const int side : {0, 1}) {
+      const auto& cells = box.cells[axis];
+      box.ends_free[axis][std::size_t(side)] = all_of_layer<D>(
+          box.cells, axis, side ? cells.high : cells.low,
+          [&](const Index<D>& at) { return ends_at_free_surface(domain, at, int(axis), side); });
+    }
+  };
   const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
     if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
-    Index<D> at;
-    for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
-    at[axis] = layer;
-    for (;;) {
+    return all_of_layer<D>(box.cells, axis, layer, [&](const Index<D>& at) {
       Index<D> inside = at;
       inside[axis] += layer < centre[axis] ? 1 : -1;
       if (!alike(at, inside)) return false;
-      std::size_t other = 0;
-      for (; other < D; ++other) {
-        if (other == axis) continue;
-        if (++at[other] <= box[other].high) break;
-        at[other] = box[other].low;
-      }
-      if (other == D) return true;
-    }
+      // Cells beside a surface end there with the others.
+      for (std::size_t other = 0; other < D; ++other)
+        for (const int side : {0, 1})
+          if (other != axis && box.ends_free[other][std::size_t(side)] &&
+              at[other] == (side ? box.cells[other].high : box.cells[other].low) &&
+              !ends_at_free_surface(domain, at, int(other), side))
+            return false;
+      return true;
+    });
   };
+  for (std::size_t axis = 0; axis < D; ++axis) find_surfaces(axis);
   for (int ring = 0; ring < rings; ++ring)
     for (std::size_t axis = 0; axis < D; ++axis) {
-      auto& cells = box[axis];
+      auto& cells = box.cells[axis];
       if (cells.high - cells.low + 1 >= longest) continue;
+      const auto before = cells;
       if (cells.low == centre[axis] - ring && layer_fits(axis, cells.low - 1)) --cells.low;
       if (cells.high == centre[axis] + ring && layer_fits(axis, cells.high + 1)) ++cells.high;
+      if (cells.low != before.low || cells.high != before.high) find_surfaces(axis);
     }
   return box;
 }
 
 /// Cells of one kind (solid or fluid) round a cell, within reach of a stencil.
 template <int D>
-std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach) {
+Box<D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach) {
   const auto kind = [&](const Index<D>& at) {
     return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
   };
@@ -113,7 +149,7 @@ std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domai
       }
     return true;
   };
-  auto box = box_round(domain, centre, widest_spread, widest_spread + 1, alike);
+  auto box = box_round(domain, centre, widest_spread, widest_spread + 1, alike).cells;
   for (std::size_t axis = 0; axis < D; ++axis) {
     auto& cells = box[axis];
     if (cells.low == 0 && domain.edges[int(axis)][0] == EdgeLaw::mirror)
@@ -162,8 +198,7 @@ void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, co
                             std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,
                             std::vector<ValueWeight>& weights) {
   auto& across = usable[std::size_t(axis)];
-  const std::int64_t last = side ? domain.grid.shape[axis] - 1 : 0;
-  if ((side ? across.high : across.low) != last) return;
+  const std::int64_t last = side ? across.high : across.low;
   const double position = domain.grid.position(axis, point_m[axis]);
   auto evenly = axis_weights(position, across);
   (side ? across.above : across.below) = Beyond::odd;
@@ -172,7 +207,7 @@ void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, co
   for (std::size_t n = 0; n < evenly.size(); ++n)
     images += 0.5 * (evenly[n].weight - oddly[n].weight) * double(2 * std::abs(evenly[n].cell - last) + 1);
   if (images == 0) return;
-  // The edge's own cells, at the point's place along it.
+  // The surface's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
   on_edge[axis] = domain.grid.centre(axis, last);
   for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
@@ -192,67 +227,98 @@ std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
 }
 
 template <int D>
-std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
-                                                     int field_row, bool fluid, Reach reach) {
-  auto usable = usable_cells(domain, centre, reach);
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    const auto beyond = [&](int side) {
-      const EdgeLaw law = domain.edges[int(axis)][side];
-      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) return Beyond::unknown;
-      return beyond_edge<D>(law, int(axis), field_row, fluid);
-    };
-    if (usable[axis].low == 0) usable[axis].below = beyond(0);
-    if (usable[axis].high == domain.grid.shape[axis] - 1) usable[axis].above = beyond(1);
-  }
+ExtendedCells<D> extended_cells(const Domain<D>& domain, const Index<D>& centre, int field_row, bool fluid,
+                                Reach reach) {
+  const auto box = usable_cells(domain, centre, reach);
+  ExtendedCells<D> usable{box.cells, box.ends_free};
+  for (std::size_t axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1}) {
+      auto& cells = usable.cells[axis];
+      const bool at_edge = side ? cells.high == domain.grid.shape[axis] - 1 : cells.low == 0;
+      if (!at_edge && !box.ends_free[axis][std::size_t(side)]) continue;
+      const EdgeLaw law = at_edge ? domain.edges[int(axis)][side] : EdgeLaw::free;
+      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) continue;
+      (side ? cells.above : cells.below) = beyond_edge<D>(law, int(axis), field_row, fluid);
+    }
   return usable;
 }
 
 template <int D>
-Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m) {
-  return domain.computed_cell(cell_of(domain.model_grid, point_m));
+Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
+  const Index<D> at = domain.computed_cell(cell_of(domain.model_grid, point_m));
+  const auto& p_waves = domain.impedance(wave_p);
+  const auto& s_waves = domain.impedance(wave_s);
+  const auto counts = [&](const Index<D>& cell) {
+    return p_waves(cell) > 0 && (s_waves(cell) > 0) == (side == Side::solid);
+  };
+  if (counts(at)) return at;
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  for (int axis = 0; axis < D; ++axis)
+    for (const int beyond : {-1, 1}) {
+      Index<D> beside = at;
+      auto& cell = beside[std::size_t(axis)];
+      const double face = double(cell) + 0.5 * beyond;
+      cell += beyond;
+      if (std::abs(domain.grid.position(axis, place[axis]) - face) > on_face || cell < 0 ||
+          cell >= domain.grid.shape[std::size_t(axis)])
+        continue;
+      if (counts(beside) || (p_waves(at) == 0 && p_waves(beside) > 0)) return beside;
+    }
+  return at;
+}
+
+/// The cells that a point reads or adds to: up to strong interfaces, unless too few are there.
+template <int D>
+static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& centre, int field_row,
+                                       bool fluid) {
+  const auto near = extended_cells(domain, centre, field_row, fluid, Reach::to_strong_interfaces);
+  const bool enough = std::all_of(near.cells.begin(), near.cells.end(), [](const AxisCells& cells) {
+    return cells.high - cells.low + 1 >= widest_beyond;
+  });
+  return enough ? near : extended_cells(domain, centre, field_row, fluid);
 }
 
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                     const Point<D>& point_m, int field_row) {
-  const Index<D> centre = cell_at(domain, point_m);
+                                     const Point<D>& point_m, int field_row, Side side) {
+  const Index<D> centre = cell_at(domain, point_m, side);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
-  const auto usable = extended_cells(domain, centre, field_row, fluid);
+  const auto usable = cells_of_point(domain, centre, field_row, fluid);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
-  std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable, field_row);
+  std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable.cells, field_row);
   if (!fluid && field_row < D)
     for (int axis = 0; axis < D; ++axis)
-      for (const int side : {0, 1})
-        if (domain.edges[axis][side] == EdgeLaw::free)
-          add_surface_correction(layout, domain, place, usable, axis, side, field_row, weights);
+      for (const int of : {0, 1})
+        if (usable.ends_free[std::size_t(axis)][std::size_t(of)])
+          add_surface_correction(layout, domain, place, usable.cells, axis, of, field_row, weights);
   return weights;
 }
 
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m, int field_row) {
-  const Index<D> centre = cell_at(domain, point_m);
+                                        const Point<D>& point_m, int field_row, Side side) {
+  const Index<D> centre = cell_at(domain, point_m, side);
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
-    return row_weights(layout, domain, point_m, field_row);
-  auto usable = extended_cells(domain, centre, field_row, false);
+    return row_weights(layout, domain, point_m, field_row, side);
+  auto usable = cells_of_point(domain, centre, field_row, false);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   for (int axis = 0; axis < D; ++axis) {
-    auto& cells = usable[std::size_t(axis)];
+    auto& cells = usable.cells[std::size_t(axis)];
+    const auto& ends_free = usable.ends_free[std::size_t(axis)];
     const double position = domain.grid.position(axis, place[axis]);
-    const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
-    const bool low = domain.edges[axis][0] == EdgeLaw::free && position < centred_from,
-               high = domain.edges[axis][1] == EdgeLaw::free && double(last) - position < centred_from;
+    const bool low = ends_free[0] && position - double(cells.low) < centred_from,
+               high = ends_free[1] && double(cells.high) - position < centred_from;
     if ((!low && !high) || cells.high == cells.low) continue;
     const auto first = std::clamp(std::int64_t(std::floor(position)), cells.low, cells.high - 1);
     cells = {first, first + 1};
   }
-  return weights_within(layout, domain, place, usable, field_row);
+  return weights_within(layout, domain, place, usable.cells, field_row);
 }
 
 template <int D>
 std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                               const Point<D>& point_m, int field_row) {
-  const Index<D> centre = cell_at(domain, point_m);
+                                               const Point<D>& point_m, int field_row, Side side) {
+  const Index<D> centre = cell_at(domain, point_m, side);
   if (domain.impedance(wave_s)(centre) == 0) return {};
   const auto usable = cells_of_the_rock(domain, centre, field_row);
   if (!usable) return {};
@@ -269,19 +335,21 @@ int row_of(const WaveField& field) {
   return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
 }
 
-template Index<2> cell_at(const Domain<2>&, const Point<2>&);
-template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
-template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
-template std::array<AxisCells, 2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
+template Index<2> cell_at(const Domain<2>&, const Point<2>&, Side);
+template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int, Side);
+template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int,
+                                                 Side);
+template ExtendedCells<2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                        int);
+                                                        int, Side);
 template int row_of<2>(const WaveField&);
-template Index<3> cell_at(const Domain<3>&, const Point<3>&);
-template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
-template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
-template std::array<AxisCells, 3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
+template Index<3> cell_at(const Domain<3>&, const Point<3>&, Side);
+template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int, Side);
+template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int,
+                                                 Side);
+template ExtendedCells<3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                        int);
+                                                        int, Side);
 template int row_of<3>(const WaveField&);
 
 }  // namespace slipwave::solver

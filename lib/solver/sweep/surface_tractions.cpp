@@ -52,24 +52,43 @@ Difference<D> second_difference(int along, int other) {
   return difference;
 }
 
+/// Where a cell ends: on a side (0 low, 1 high) of an axis.
+struct End {
+  int axis, side;
+};
+
 /// Sums of fields round a cell of the surface.
 template <int D>
 class Sums {
  public:
-  Sums(const Domain<D>& domain, const Index<D>& at) : domain_(domain), at_(at) {}
+  struct Term {
+    SurfaceTerm<D> of;  // in a cell of the surface
+    int behind;         // 1: the one behind that
+  };
+  Sums(const Domain<D>& domain, const Index<D>& at, const End& end) : domain_(domain), at_(at), end_(end) {}
 
-  /// Adds a difference of a field; false where there is none.
-  bool add(const Difference<D>& difference, int row, double factor) {
-    for (const auto& part : difference.parts)
-      if (!add_term(domain_, at_, part.offset, row, factor * part.weight, terms_)) return false;
+  /// Adds a difference of a field, of the cells of the surface or (1) of those behind; false where there is
+  /// none.
+  bool add(const Difference<D>& difference, int row, double factor, int behind = 0) {
+    std::vector<SurfaceTerm<D>> terms;
+    for (const auto& part : difference.parts) {
+      auto offset = part.offset;
+      offset[std::size_t(end_.axis)] += behind * inward();
+      if (!add_term(domain_, at_, offset, row, factor * part.weight, terms)) return false;
+      terms.back().cell[std::size_t(end_.axis)] -= behind * inward();
+      if (!ends_at_free_surface(domain_, terms.back().cell, end_.axis, end_.side)) return false;
+      terms_.push_back({terms.back(), behind});
+    }
     return true;
   }
-  const std::vector<SurfaceTerm<D>>& terms() const { return terms_; }
+  const std::vector<Term>& terms() const { return terms_; }
 
  private:
+  std::int64_t inward() const { return end_.side ? -1 : 1; }
   const Domain<D>& domain_;
   Index<D> at_;
-  std::vector<SurfaceTerm<D>> terms_;
+  End end_;
+  std::vector<Term> terms_;
 };
 
 /// Shares of the terms of (E11b) and (E11c) over x = (vs/vp)^2: the normal one fitted to the speed of the
@@ -92,66 +111,76 @@ struct PairSums {
   Sums<D> stresses, velocities, bend;
   bool found = true;
 
-  PairSums(const Domain<D>& domain, const Index<D>& at)
-      : stresses(domain, at), velocities(domain, at), bend(domain, at) {}
+  PairSums(const Domain<D>& domain, const Index<D>& at, const End& end)
+      : stresses(domain, at, end), velocities(domain, at, end), bend(domain, at, end) {}
   std::array<const Sums<D>*, 3> lists() const { return {&stresses, &velocities, &bend}; }
-  void add(Sums<D>& sums, const Difference<D>& difference, int row, double factor) {
-    found = found && sums.add(difference, row, factor);
+  void add(Sums<D>& sums, const Difference<D>& difference, int row, double factor, int behind = 0) {
+    found = found && sums.add(difference, row, factor, behind);
   }
 };
+
+/// Cells by axis: those of z are as high as their row.
+template <int D>
+double cell_along(const Domain<D>& domain, const Index<D>& at, int axis) {
+  return axis == D - 1 ? domain.height(at[D - 1]) : 1;
+}
+
+/// The axes along a surface along which waves may travel.
+template <int D>
+std::vector<int> axes_along(const Domain<D>& domain, int across) {
+  std::vector<int> axes;
+  for (int axis = 0; axis < D; ++axis)
+    if (axis != across && !thin(domain, axis)) axes.push_back(axis);
+  return axes;
+}
+
+template <int D>
+int stress_row(int one, int other) {
+  using Rows = FieldRows<D>;
+  return one == other ? Rows::normal_stress(one)
+                      : Rows::shear_stress(std::min(one, other), std::max(one, other));
+}
 
 /// Second differences along the surface of the stresses in it. On a bent row those of their horizontal
 /// components, which are the contravariant ones along the rows where there is no traction.
 template <int D>
-PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at) {
-  using Rows = FieldRows<D>;
-  constexpr int z = D - 1;
-  PairSums<D> sums(domain, at);
-  for (int along = 0; along < z; ++along)
-    for (int other = 0; other < z; ++other)
-      if (!thin(domain, along) && !thin(domain, other))
-        sums.add(sums.stresses, second_difference<D>(along, other),
-                 along == other ? Rows::normal_stress(along) : Rows::shear_stress(along, other), 1);
+PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at, const End& end) {
+  PairSums<D> sums(domain, at, end);
+  for (const int along : axes_along(domain, end.axis))
+    for (const int other : axes_along(domain, end.axis))
+      sums.add(sums.stresses, second_difference<D>(along, other), stress_row<D>(along, other),
+               1 / (cell_along(domain, at, along) * cell_along(domain, at, other)));
   return sums;
 }
 
-/// The difference along an axis of the acceleration across the surface, which its normal stress half a row
+/// The difference along an axis of the acceleration across the surface, which its normal stress half a cell
 /// below it gives; and over lambda what sweeps along it have put there since the step began.
 template <int D>
-PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, int side, int along) {
+PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, const End& end, int along) {
   using Rows = FieldRows<D>;
-  constexpr int z = D - 1;
-  PairSums<D> sums(domain, at);
+  PairSums<D> sums(domain, at, end);
   if (thin(domain, along)) return sums;
-  const double outward = (side ? 1 : -1) / domain.height(at[z]);
-  sums.add(sums.stresses, first_difference<D>(along), Rows::normal_stress(z), 2 * outward);
-  for (int other = 0; other < z; ++other)
-    if (!thin(domain, other))
-      sums.add(sums.velocities, second_difference<D>(along, other), Rows::velocity(other), outward);
+  const double outward =
+      (end.side ? 1 : -1) / (cell_along(domain, at, end.axis) * cell_along(domain, at, along));
+  sums.add(sums.stresses, first_difference<D>(along), Rows::normal_stress(end.axis), 2 * outward);
+  for (const int other : axes_along(domain, end.axis))
+    sums.add(sums.velocities, second_difference<D>(along, other), Rows::velocity(other),
+             outward / cell_along(domain, at, other));
   return sums;
 }
 
 /// The bend of a component of velocity (E11c): half a step of the difference, along the surface, of the slope
 /// that stresses have across it.
 template <int D>
-void add_bend(const Domain<D>& domain, const Index<D>& at, int side, int component, PairSums<D>& sums) {
-  using Rows = FieldRows<D>;
-  constexpr int z = D - 1;
+void add_bend(const Domain<D>& domain, const Index<D>& at, const End& end, int component, PairSums<D>& sums) {
   Index<D> second = at;
-  second[z] += side ? -1 : 1;
-  const double height = domain.height(at[z]);
-  const double per_cell = 2 * height / (height + domain.height(second[z]));
-  for (int along = 0; along < z; ++along)
-    for (const std::int64_t row : {0, 1}) {
-      if (thin(domain, along)) continue;
-      auto difference = first_difference<D>(along);
-      for (auto& part : difference.parts) part.offset[z] = side ? -row : row;
-      sums.add(sums.bend, difference,
-               component == along
-                   ? Rows::normal_stress(along)
-                   : Rows::shear_stress(std::min(along, component), std::max(along, component)),
-               (row ? -0.5 : 0.5) * per_cell);
-    }
+  second[std::size_t(end.axis)] += end.side ? -1 : 1;
+  const double height = cell_along(domain, at, end.axis);
+  const double per_cell = 2 * height / (height + cell_along(domain, second, end.axis));
+  for (const int along : axes_along(domain, end.axis))
+    for (const int behind : {0, 1})
+      sums.add(sums.bend, first_difference<D>(along), stress_row<D>(along, component),
+               (behind ? -0.5 : 0.5) * per_cell / cell_along(domain, at, along), behind);
 }
 
 /// What a normal traction adds to the waves that enter at a face, as the Riemann solution takes them: in bent
@@ -181,69 +210,66 @@ RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, i
 
 /// Whether the extension beyond the surface is corrected there.
 template <int D>
-bool corrected(const Domain<D>& domain, const Index<D>& at, int side) {
-  for (int axis = 0; axis < D; ++axis)
-    if ((axis == D - 1 || !thin(domain, axis)) &&
-        surface_slope(domain, at, D - 1, side, FieldRows<D>::velocity(axis)).empty())
-      return false;
-  return true;
+bool corrected(const Domain<D>& domain, const Index<D>& at, const End& end) {
+  auto components = axes_along(domain, end.axis);
+  components.push_back(end.axis);
+  return std::none_of(components.begin(), components.end(), [&](int component) {
+    return surface_slope(domain, at, end.axis, end.side, FieldRows<D>::velocity(component)).empty();
+  });
 }
 
 }  // namespace
 
 template <int D, class Real>
-SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side) {
-  constexpr int z = D - 1;
-  if (domain.edges[z][side] != EdgeLaw::free) return;
-  const Layout<D> material(domain.grid.shape, material_rows_of<D>(domain.material_kind()));
-  Grid<D> surface = domain.grid;
-  surface.shape[z] = 1;
-  std::int64_t number = 0;
-  for (std::int64_t n = 0; n < surface.size(); ++n) {
-    Index<D> at = surface.index(n);
-    at[z] = side ? domain.grid.shape[z] - 1 : 0;
-    number = (D == 3 ? at[1] * layout.padded_nx() : 0) + at[0];
-    if (domain.anisotropic_cell(at) || !corrected(domain, at, side)) continue;
-    const bool bent = domain.bent(at[z]);
-    std::vector<PairSums<D>> pairs = {normal_sums(domain, at)};
-    if (bent) add_bend(domain, at, side, z, pairs[0]);
-    for (int along = 0; along < z; ++along) {
-      pairs.push_back(bent ? PairSums<D>(domain, at) : tangential_sums(domain, at, side, along));
-      if (!thin(domain, along)) add_bend(domain, at, side, along, pairs.back());
-    }
-    if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) continue;
-    const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-    const Shares shares = shares_of(zs * zs / (zp * zp), bent);
-    Cell cell{number,
-              layout.cell(at),
-              material.cell(at) + row_b * material.row_pitch(),
-              {},
-              Real(shares.tangential * zs * zs),
-              Real(domain.coupling_at_edge(at, z, 0) * zp * zp),
-              Real(shares.bend),
-              surface_normal<D, Real>(domain, at, side),
-              0};
-    const auto entering = entering_per_normal_traction(domain, at, side);
-    for (std::size_t pair = 0; pair < D; ++pair)
-      cell.normal[pair] = Real(shares.normal * zs * zs * entering[pair]);
-    Pattern pattern;
-    for (std::size_t pair = 0; pair < pairs.size(); ++pair)
-      for (std::size_t list = 0; list < 3; ++list)
-        for (const auto& term : pairs[pair].lists()[list]->terms())
-          pattern[pair][list].push_back(
-              {layout.cell(term.cell) + term.row * layout.row_pitch() - layout.cell(at), Real(term.weight)});
-    // Neighbours have the same but at the sides.
-    auto found = std::find(patterns_.rbegin(), patterns_.rend(), pattern);
-    if (found == patterns_.rend()) {
-      patterns_.push_back(std::move(pattern));
-      found = patterns_.rbegin();
-    }
-    cell.pattern = std::int32_t(patterns_.rend() - found - 1);
-    cells_.push_back(cell);
+SurfaceTractions<D, Real>::SurfaceTractions(int axis, int side, std::int64_t cells)
+    : size_(cells), axis_(axis), side_(side) {}
+
+template <int D, class Real>
+void SurfaceTractions<D, Real>::add(const Domain<D>& domain, const Index<D>& at, std::int64_t number,
+                                    std::int64_t place, std::int64_t b, const Offset& offset) {
+  const End end{axis_, side_};
+  const bool bent = domain.bent(at[D - 1]);
+  if ((bent && axis_ < D - 1) || domain.anisotropic_cell(at) || !corrected(domain, at, end)) return;
+  std::vector<PairSums<D>> pairs = {normal_sums(domain, at, end)};
+  if (bent) add_bend(domain, at, end, axis_, pairs[0]);
+  for (int pair = 1; pair < D; ++pair) {
+    const int along = axis_of_pair<D>(axis_, pair);
+    pairs.push_back(bent ? PairSums<D>(domain, at, end) : tangential_sums(domain, at, end, along));
+    if (!thin(domain, along)) add_bend(domain, at, end, along, pairs.back());
   }
+  if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) return;
+  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+  const Shares shares = shares_of(zs * zs / (zp * zp), bent);
+  Cell cell{number,
+            place,
+            b,
+            {},
+            Real(shares.tangential * zs * zs),
+            Real(domain.coupling_at_edge(at, axis_, axis_of_pair<D>(axis_, 1)) * zp * zp),
+            Real(shares.bend),
+            surface_normal<D, Real>(domain, at, side_),
+            0};
+  const auto entering = entering_per_normal_traction(domain, at, side_);
+  for (std::size_t pair = 0; pair < D; ++pair)
+    cell.normal[pair] = Real(shares.normal * zs * zs * entering[pair]);
+  Pattern pattern;
+  for (std::size_t pair = 0; pair < pairs.size(); ++pair)
+    for (std::size_t list = 0; list < 3; ++list)
+      for (const auto& [of, behind] : pairs[pair].lists()[list]->terms())
+        pattern[pair][list].push_back({offset(of.cell, behind, of.row), Real(of.weight)});
+  // Neighbours have the same but at the sides.
+  const auto [found, is_new] = number_of_pattern_.try_emplace(pattern, std::int32_t(patterns_.size()));
+  if (is_new) patterns_.push_back(std::move(pattern));
+  cell.pattern = found->second;
+  cells_.push_back(cell);
+}
+
+template <int D, class Real>
+void SurfaceTractions<D, Real>::finish() {
+  number_of_pattern_.clear();
   if (cells_.empty()) return;
-  for (auto& list : tractions_) list.assign(std::size_t(number + layout.padded_nx()), 0);
-  for (auto& list : bends_) list.assign(std::size_t(number + layout.padded_nx()), 0);
+  for (auto& list : tractions_) list.assign(std::size_t(size_), 0);
+  for (auto& list : bends_) list.assign(std::size_t(size_), 0);
 }
 
 template <int D, class Real>
@@ -255,11 +281,12 @@ std::int64_t SurfaceTractions<D, Real>::memory_bytes() const {
 }
 
 template <int D, class Real>
-void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
+void SurfaceTractions<D, Real>::update(const Real* all_fields, const Real* material, std::int64_t first,
+                                       std::int64_t last) {
   auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
                                [](const Cell& one, std::int64_t number) { return one.number < number; });
   for (; cell != cells_.end() && cell->number < last; ++cell) {
-    const Real* const fields = state.fields.data() + cell->place;
+    const Real* const fields = all_fields + cell->place;
     const Pattern& pattern = patterns_[std::size_t(cell->pattern)];
     const auto sum = [&](std::size_t pair, std::size_t list) {
       Real total = 0;
@@ -267,7 +294,7 @@ void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t
       return total;
     };
     const auto number = std::size_t(cell->number);
-    const Real b = state.material.data()[cell->b], normal = sum(0, 0);
+    const Real b = material[cell->b], normal = sum(0, 0);
     RowVector<D, Real> bend{};
     bend.z = sum(0, 2), bend.x = sum(1, 2);
     if constexpr (D == 3) bend.y = sum(2, 2);

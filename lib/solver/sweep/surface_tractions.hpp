@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <vector>
 
 #include "solver/kernels/bent_formulas.hpp"
@@ -11,21 +14,29 @@
 
 namespace slipwave::solver {
 
-/// What stands for zero traction at a free surface at the top (side 0) or the bottom (1) of the grid in a
-/// sweep across it over a whole step: as much, of second order in the step, as gives waves along the surface
-/// of an isotropic solid the speed that splitting the step takes from them (theory.md (E11b)). None where the
-/// extension beyond the surface has no corrections (FreeSurface), or the axes of rock are tilted.
+/// What stands for zero traction at a free surface in a sweep across it over a whole step: as much, of second
+/// order in the step, as gives waves along the surface of an isotropic solid the speed that splitting the
+/// step takes from them (theory.md (E11b)). None where the extension beyond the surface has no corrections
+/// (FreeSurface), or the axes of rock are tilted.
 template <int D, class Real>
 class SurfaceTractions {
  public:
   SurfaceTractions() = default;
-  SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side);
+  /// Of `cells` cells that end there on this side (0 low, 1 high) of an axis.
+  SurfaceTractions(int axis, int side, std::int64_t cells);
+  /// Where a field of a cell of the surface, or of the one behind it (1), stands from the first of a cell.
+  using Offset = std::function<std::int64_t(const Index<D>& at, int behind, int row)>;
+  /// Adds a cell, with numbers that ascend; its places in the fields and of b in the material.
+  void add(const Domain<D>& domain, const Index<D>& at, std::int64_t number, std::int64_t place,
+           std::int64_t b, const Offset& offset);
+  /// Once all are added.
+  void finish();
 
   bool empty() const { return cells_.empty(); }
   std::int64_t memory_bytes() const;
   /// Computes them at cells first <= number < last of the surface, numbered as by FreeSurface, from the
   /// fields before the sweep, up to free_surface_reach cells beyond.
-  void update(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+  void update(const Real* fields, const Real* material, std::int64_t first, std::int64_t last);
   /// Of a pair of the sweep (0 P, then S by axes), by number.
   const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
   /// What the sweeps before have bent the velocity along the surface, to be added to the correction of
@@ -37,7 +48,7 @@ class SurfaceTractions {
   struct Term {
     std::int64_t offset;
     Real weight;
-    bool operator==(const Term& other) const { return offset == other.offset && weight == other.weight; }
+    auto operator<=>(const Term& other) const = default;
   };
   /// Of each pair its terms of stresses, of velocities, and of its bend.
   using Pattern = std::array<std::array<std::vector<Term>, 3>, std::size_t(D)>;
@@ -46,11 +57,14 @@ class SurfaceTractions {
     std::int64_t number, place, b;
     std::array<Real, D> normal;  // by pair
     Real tangential, lambda, bend;
-    RowVector<D, Real> direction;  // N, normal to the surface
+    RowVector<D, Real> direction;  // in a bent row: N, normal to the surface
     std::int32_t pattern;
   };
+  std::int64_t size_ = 0;
+  int axis_ = 0, side_ = 0;
   std::vector<Cell> cells_;  // by number
   std::vector<Pattern> patterns_;
+  std::map<Pattern, std::int32_t> number_of_pattern_;  // while cells are added
   std::array<std::vector<Real>, D> tractions_, bends_;
 };
 

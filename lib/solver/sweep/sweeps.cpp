@@ -132,10 +132,10 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     changed_[axis] = rows_changed(axis);
     for (const int side : {0, 1})
       if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
+    for (const int side : {0, 1})
+      if (reach_ > 0 && shear_)
+        beside_void_[axis][side] = FreeSurface<D, Real>::beside_void(state.layout, domain, axis, side);
   }
-  for (const int side : {0, 1})
-    if (reach_ > 0 && shear_)
-      surface_tractions_[std::size_t(side)] = SurfaceTractions<D, Real>(state.layout, domain, side);
   std::array<TiltedFaces<D>, std::size_t(D)> tilted;
   for (int axis = 0; axis < D && !domain.anisotropic_cells().empty(); ++axis) {
     tilted[std::size_t(axis)].contrasts = tilted_contrasts(domain, axis, reach_);
@@ -154,13 +154,16 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       const int axis = int(n / distinct_pairs_), pair = int(n % distinct_pairs_);
       const auto wave = pair == 0 ? wave_p : wave_s;
       if (wave == wave_s && !shear_) continue;
-      SlotBefore<D> slot_before;
-      if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
+      const SlotBeside<D> slot_beside = [this, axis](Index<D> at, int side) {
+        const auto number = beside_void_[std::size_t(axis)][std::size_t(side)].corrected(at);
+        at[std::size_t(axis)] += side;
+        return number >= 0 ? of_void(number) : axis == z_axis ? corrections_.slot(at) : -1;
+      };
       const RisesFrom<D> rises_from = [&domain, axis](const Index<D>& at, int side) {
         return order_rises_from(domain, at, axis, side);
       };
       stencils_[std::size_t(axis)][std::size_t(pair)] = InterfaceStencils(
-          domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from, slot_before,
+          domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from, slot_beside,
           tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_), bounds[std::size_t(axis)]);
     }
   });
@@ -229,9 +232,9 @@ std::int64_t Sweeps<D, Real>::memory_bytes() const {
                        bytes_of(plain_lines_) + (split_ ? split_->memory_bytes() : 0);
   for (const auto& of_axis : stencils_)
     for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
-  for (const auto& of_axis : free_surfaces_)
-    for (const auto& of_side : of_axis) bytes += of_side.memory_bytes();
-  for (const auto& of_side : surface_tractions_) bytes += of_side.memory_bytes();
+  for (const auto* surfaces : {&free_surfaces_, &beside_void_})
+    for (const auto& of_axis : *surfaces)
+      for (const auto& of_side : of_axis) bytes += of_side.memory_bytes();
   return bytes;
 }
 
@@ -273,6 +276,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   const auto number = state_.layout.line_number(line);
   if (metric_.bent(number))
     return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing, prefetch);
+  const bool whole_step = scale == 1;
   scale = scale_of(axis, line, scale);
   const std::int64_t nx = state_.layout.shape()[0];
   // The padding of the last block of a row has no material: with it a piece would never be uniform.
@@ -303,7 +307,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     auto of_pair = material;
     if (p > 0) of_pair.zs = impedance_of(p, material);
     stencils_of(axis, p).correct(order_, number, columns, stride, v, s, of_pair, scale, up, down,
-                                 corrections_of(axis, p));
+                                 corrections_of(axis, p, whole_step));
     // After the stencils beside interfaces: their waves keep to the criterion, too.
     if (monotone_)
       kernels_[false]->limit(columns.count(), stride, v, s, state_.material_layout.stride(axis),
@@ -312,18 +316,20 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   }
   if (!anisotropic_cells_.empty())
     anisotropic_cells_.reconstruct(axis, number, columns, *kernels_[false], stride,
-                                   pairs_from(axis, fields + columns.first, pitch), material.b, scale,
-                                   outgoing);
+                                   pairs_from(axis, fields + columns.first, pitch, whole_step), material.b,
+                                   scale, outgoing);
+  for (const int side : {0, 1})
+    if (whole_step && axis == 0) add_tractions_beside_void(axis, side, line, columns, outgoing);
 }
 
 /// From the first cell on.
 template <int D, class Real>
-auto Sweeps<D, Real>::pairs_from(int axis, const Real* fields, std::int64_t pitch) const ->
+auto Sweeps<D, Real>::pairs_from(int axis, const Real* fields, std::int64_t pitch, bool whole) const ->
     typename Cells::Pairs {
   typename Cells::Pairs pairs{};
   for (int p = 0; p < D; ++p) {
     const auto& of = pairs_[axis][std::size_t(p)];
-    pairs[std::size_t(p)] = {fields + of.v * pitch, fields + of.s * pitch, corrections_of(axis, p)};
+    pairs[std::size_t(p)] = {fields + of.v * pitch, fields + of.s * pitch, corrections_of(axis, p, whole)};
   }
   return pairs;
 }
@@ -354,11 +360,12 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
   bent_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
   for (int p = 0; p < D; ++p)
     stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
-                                 outgoing.up(p), outgoing.down(p), corrections_of(axis, p), &metric);
+                                 outgoing.up(p), outgoing.down(p), corrections_of(axis, p, scale == 1),
+                                 &metric);
   if (!anisotropic_cells_.empty())
     anisotropic_cells_.reconstruct(axis, number, columns, *kernels_[false], stride,
-                                   pairs_from(axis, fields + columns.first, pitch), material.b, scale,
-                                   outgoing, &metric);
+                                   pairs_from(axis, fields + columns.first, pitch, scale == 1), material.b,
+                                   scale, outgoing, &metric);
 }
 
 template <int D, class Real>
@@ -546,11 +553,9 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
-  for (const int side : {0, 1}) {
-    free_surfaces_[axis][side].update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
-    if (axis == z_axis)
-      surface_tractions_[std::size_t(side)].update(state_, 0, std::numeric_limits<std::int64_t>::max());
-  }
+  for (auto* surfaces : {&free_surfaces_, &beside_void_})
+    for (auto& of_side : (*surfaces)[axis])
+      of_side.update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
   if (axis == z_axis) corrections_.update_all(state_);
   if (axis == z_axis && split_) split_->update_all();
   const std::int64_t sheets = layout.lines() / rows;
@@ -605,16 +610,35 @@ void Sweeps<D, Real>::enter_grid(int axis, int side, std::int64_t n, OutgoingWav
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::add_surface_tractions(int side, const Index<D>& at, const IndexRange& columns,
+void Sweeps<D, Real>::add_surface_tractions(int axis, int side, std::int64_t number, std::int64_t count,
                                             OutgoingWaves<Real> entering) const {
-  const auto& tractions = surface_tractions_[std::size_t(side)];
+  const auto& tractions = free_surfaces_[axis][side].tractions();
   if (tractions.empty()) return;
-  const std::int64_t first = free_surfaces_[z_axis][side].number(at) + columns.first;
   for (int p = 0; p < D; ++p) {
-    const Real* const traction = tractions.of(p) + first;
+    const Real* const traction = tractions.of(p) + number;
     Real* const wave = side ? entering.down(p) : entering.up(p);
-    for (std::int64_t i = 0; i < columns.count(); ++i) wave[i] += side ? traction[i] : -traction[i];
+    for (std::int64_t i = 0; i < count; ++i) wave[i] += side ? traction[i] : -traction[i];
   }
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::add_tractions_beside_void(int axis, int side, const Index<D>& line,
+                                                const IndexRange& columns,
+                                                OutgoingWaves<Real> entering) const {
+  const auto& surface = beside_void_[axis][side];
+  if (surface.tractions().empty()) return;
+  const std::int64_t along_x = axis > 0 ? 0 : side ? -1 : 1;
+  const auto number = state_.layout.line_number(line);
+  const auto cells = surface.numbers({number, number + 1}, {columns.first + along_x, columns.last + along_x});
+  for (auto n = cells.first; n < cells.last; ++n)
+    for (int p = 0; p < D; ++p) {
+      const auto x = surface.column(n) - along_x - columns.first;
+      const Real traction = surface.tractions().of(p)[n];
+      if (side)
+        entering.down(p)[x] += traction;
+      else
+        entering.up(p)[x] -= traction;
+    }
 }
 
 template <int D, class Real>
@@ -749,7 +773,11 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   if (begins) fill_ghost_cells(piece.line, 0, piece.fields, piece.pitch, scale);
   if (ends) fill_ghost_cells(piece.line, 1, piece.fields, piece.pitch, scale);
   reconstruct_row(0, at, piece.reconstructed, piece.fields, piece.pitch, 1, scale, first, work.prefetch());
-  if (begins) enter_grid(0, 0, 1, first, first.at(-1));
+  const auto enter_by = [&](int side, OutgoingWaves<Real> outgoing, OutgoingWaves<Real> entering) {
+    enter_grid(0, side, 1, outgoing, entering);
+    if (scale == 1) add_surface_tractions(0, side, free_surfaces_[0][side].number(at), 1, entering);
+  };
+  if (begins) enter_by(0, first, first.at(-1));
   IndexRange with_faces = piece.reconstructed;
   if (ends) {
     const auto beyond = first.at(nx - piece.reconstructed.first);
@@ -757,7 +785,7 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
     for (int p = 0; p < pair_count(); ++p)
       for (Real* const zero : {beyond.up(p), beyond.down(p)})
         std::fill(zero, zero + with_faces.last - nx, Real(0));
-    enter_grid(0, 1, 1, beyond.at(-1), beyond);
+    enter_by(1, beyond.at(-1), beyond);
   }
   const auto faces = work.faces();
   solve_along(piece.line, with_faces, begins, ends, first, faces.at(with_faces.first - base));
@@ -831,8 +859,16 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
     // Splittings of fourth order have no whole steps: nothing is missing there.
-    if (axis == z_axis && scale == 1 && (row == 0 || row == rows))
-      add_surface_tractions(row == 0 ? 0 : 1, at, wide, row == 0 ? above : here);
+    if (axis == z_axis && scale == 1 && (row == 0 || row == rows)) {
+      const int side = row == 0 ? 0 : 1;
+      add_surface_tractions(axis, side, free_surfaces_[axis][side].number(at) + x, n,
+                            row == 0 ? above : here);
+    }
+    // Beside void only now: they are known once the row behind that of the surface is there.
+    if (axis == z_axis && scale == 1 && row > 0 && row < rows) {
+      add_tractions_beside_void(axis, 0, line(row), wide, above);
+      add_tractions_beside_void(axis, 1, line(row - 1), wide, here);
+    }
     if (advance_bent(axis, at, row, wide, scale, ring, work)) return;
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
@@ -1031,6 +1067,8 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
     return IndexRange{row, row + 1};
   }();
   if (axis == 0 && split_) split_->retain(line, lagging(columns));
+  for (auto& surface : beside_void_[axis])
+    if (!surface.empty()) surface.retain(state_, line, axis == 0 ? lagging(columns) : columns);
   auto& edges = free_surfaces_[axis];
   if (at.first == 0 && !edges[0].empty()) edges[0].retain(state_, line);
   if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].retain(state_, line);
@@ -1039,15 +1077,29 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
 template <int D, class Real>
 void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line, const IndexRange& columns) {
   if (split_) split_->update_line(line, lagging(columns));
+  correct_beside_void(0, {line, line + 1}, lagging(columns));
   for (auto& edge : free_surfaces_[0])
     if (!edge.empty()) edge.update_corrections(state_, line, line + 1);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::correct_flank_surfaces(std::int64_t plane) {
+void Sweeps<D, Real>::correct_beside_void(int axis, const IndexRange& lines, const IndexRange& columns) {
+  for (auto& surface : beside_void_[axis]) {
+    if (surface.empty() || lines.empty()) continue;
+    const auto cells = surface.numbers(lines, columns);
+    surface.update_corrections(state_, cells.first, cells.last);
+  }
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::correct_flank_surfaces(std::int64_t plane, const IndexRange& rows) {
   const auto cells = state_.layout.padded_nx();
-  for (auto& edge : free_surfaces_[1])
-    if (!edge.empty()) edge.update_corrections(state_, plane * cells, (plane + 1) * cells);
+  const auto of_plane = state_.layout.shape()[1], last = std::min(rows.last, of_plane);
+  correct_beside_void(1, {plane * of_plane + rows.first, plane * of_plane + last}, {0, cells});
+  for (const int side : {0, 1})
+    if (auto& edge = free_surfaces_[1][side];
+        !edge.empty() && (side == 0 ? rows.first == 0 : rows.first <= of_plane && rows.last > of_plane))
+      edge.update_corrections(state_, plane * cells, (plane + 1) * cells);
 }
 
 template <int D, class Real>
@@ -1055,11 +1107,18 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
   const auto correct = [&](int side) {
     free_surfaces_[z_axis][side].update_corrections(state_, columns.first * cells, columns.last * cells);
-    surface_tractions_[std::size_t(side)].update(state_, columns.first * cells, columns.last * cells);
   };
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
   corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
+  // Of the row before: the one behind it must be as before the sweep, too.
+  if (const auto row = step - 1; row >= 0 && row < state_.layout.shape()[z_axis]) {
+    const auto lines = D == 2 ? 1 : state_.layout.shape()[1];
+    const IndexRange of_row =
+        D == 2 ? IndexRange{0, 1} : IndexRange{columns.first, std::min(columns.last, lines)};
+    correct_beside_void(z_axis, {row * lines + of_row.first, row * lines + of_row.last},
+                        D == 2 ? columns : IndexRange{0, cells});
+  }
   if (split_) split_->update(step, columns);
 }
 
@@ -1083,6 +1142,8 @@ void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields
       if (edge.empty()) continue;
       v[ghost] += Real(2 * j + 1) * edge.velocity_correction(p)[line];
       s[ghost] += scale * edge.traction_correction(p)[line];
+      if (scale == 1 && !edge.tractions().empty())
+        v[ghost] += Real(2 * j + 1) * edge.tractions().bend(p)[line];
     }
   }
 }
@@ -1112,8 +1173,7 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
       fill(all[p].v, image.v, edge.empty() ? nullptr : edge.velocity_correction(p) + first, Real(2 * j + 1));
       fill(all[p].s, image.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
       // As in across().
-      if (const auto& splitting = surface_tractions_[std::size_t(side)];
-          axis == z_axis && scale == 1 && !splitting.empty()) {
+      if (const auto& splitting = edge.tractions(); axis == z_axis && scale == 1 && !splitting.empty()) {
         const Real* const bend = splitting.bend(p) + first;
         Real* const v = state_.field_row(ghost, all[p].v);
         for (std::int64_t i = columns.first; i < columns.last; ++i) v[i] += Real(2 * j + 1) * bend[i];

@@ -86,17 +86,18 @@ class Sweeps {
   /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
+           !beside_void_[axis][0].empty() || !beside_void_[axis][1].empty() ||
            (axis == z_axis && !corrections_.empty()) || (split_ && split_->any(axis));
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
-  /// Copies the velocities at the edges of x on this row, or at those of an axis between x and z where this
-  /// row is one of them.
+  /// Copies the velocities at the free surfaces of x on this row, or at those of an axis between x and z
+  /// where this row is beside one of them.
   void retain(int axis, std::int64_t line, const IndexRange& columns);
   /// Corrections at the edges of x. Before the first piece of a row is swept along x.
   void correct_side_surfaces(std::int64_t line, const IndexRange& columns);
-  /// In 3-D at the edges of y, before a plane of rows is swept along y.
-  void correct_flank_surfaces(std::int64_t plane);
+  /// In 3-D at the edges of y and before these of its rows, before they are swept along y in a plane.
+  void correct_flank_surfaces(std::int64_t plane, const IndexRange& rows);
   /// At the edges of z, before across() of that step: of all columns (in 3-D rows of a plane) that it and the
   /// pieces before it were given, and free_surface_reach more.
   void correct_end_surfaces(std::int64_t step, const IndexRange& columns);
@@ -171,7 +172,7 @@ class Sweeps {
   void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                     Ring<Real>& ring) const;
   using Cells = AnisotropicCells<D, Real>;
-  typename Cells::Pairs pairs_from(int axis, const Real* fields, std::int64_t pitch) const;
+  typename Cells::Pairs pairs_from(int axis, const Real* fields, std::int64_t pitch, bool whole) const;
   /// The states of faces across curvilinear rows, before `row`, beside anisotropic cells.
   void solve_anisotropic_across(const Index<D>& at, std::int64_t row, const IndexRange& columns,
                                 const BentSolve<Real>& face, Real sign, bool fluid) const;
@@ -196,11 +197,16 @@ class Sweeps {
   template <class Advance>
   void filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, Real scale,
                 std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
+  /// Beside void, of the cells in these columns of lines that follow each other.
+  void correct_beside_void(int axis, const IndexRange& lines, const IndexRange& columns);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                   OutgoingWaves<Real> entering) const;
-  /// Instead of no traction at the free surface of z, in a sweep over a whole step.
-  void add_surface_tractions(int side, const Index<D>& at, const IndexRange& columns,
+  /// Instead of no traction at a free edge, in a sweep over a whole step, from a cell of it on.
+  void add_surface_tractions(int axis, int side, std::int64_t number, std::int64_t count,
                              OutgoingWaves<Real> entering) const;
+  /// The same beside void on that side of the cells of a line, whose waves in these columns enter them.
+  void add_tractions_beside_void(int axis, int side, const Index<D>& line, const IndexRange& columns,
+                                 OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
@@ -237,17 +243,23 @@ class Sweeps {
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
-  /// Those of a pair of the sweep along an axis.
-  PairCorrections<Real> corrections_of(int axis, int pair) const {
-    const auto* const images = split_ ? split_->images(pair) : nullptr;
-    if (axis != z_axis) return {nullptr, nullptr, images};
-    return {corrections_.velocity(pair), corrections_.traction(pair), images};
+  /// Those of a pair of the sweep along an axis; `whole`: of a whole step.
+  PairCorrections<Real> corrections_of(int axis, int pair, bool whole) const {
+    PairCorrections<Real> of{nullptr, nullptr, split_ ? split_->images(pair) : nullptr, {}};
+    if (axis == z_axis) of.v = corrections_.velocity(pair), of.s = corrections_.traction(pair);
+    for (const std::size_t side : {0, 1}) {
+      const auto& surface = beside_void_[std::size_t(axis)][side];
+      const auto& tractions = surface.tractions();
+      of.beside_void[side] = {surface.velocity_correction(pair), surface.traction_correction(pair),
+                              whole && !tractions.empty() ? tractions.bend(pair) : nullptr};
+    }
+    return of;
   }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
-  std::array<SurfaceTractions<D, Real>, 2> surface_tractions_;        // of z, by side
+  std::array<std::array<FreeSurface<D, Real>, 2>, D> beside_void_;    // [axis][side]
 };
 
 }  // namespace slipwave::solver

@@ -110,22 +110,21 @@ VelocityGradient<D>::VelocityGradient(const Domain<D>& domain, const Point<D>& p
       centre_(cell_at(domain, point_m)),
       fluid_(domain.impedance(wave_s)(centre_) == 0),
       inner_(usable(0)) {
+  const auto ends_free = extended_cells(domain_, centre_, 0, fluid_, Reach::to_strong_interfaces).ends_free;
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   for (int axis = 0; axis < D; ++axis) {
     auto& cells = inner_[std::size_t(axis)];
     at_[std::size_t(axis)] = domain.grid.position(axis, place[std::size_t(axis)]);
     cells.below = cells.above = Beyond::unknown;
-    const bool reached[] = {cells.low == 0, cells.high == domain.grid.shape[std::size_t(axis)] - 1};
     for (const int side : {0, 1})
-      if (!fluid_ && reached[side] && domain.edges[axis][side] == EdgeLaw::free)
-        free_faces_.push_back({axis, side});
+      if (!fluid_ && ends_free[std::size_t(axis)][std::size_t(side)])
+        free_faces_.push_back({axis, side, side ? cells.high : cells.low});
   }
 }
 
 template <int D>
 auto VelocityGradient<D>::on_face(Place at, const Face& face) const -> Place {
-  const auto axis = std::size_t(face.axis);
-  at[axis] = face.side ? double(domain_.grid.shape[axis]) - 0.5 : -0.5;
+  at[std::size_t(face.axis)] = double(face.last) + (face.side ? 0.5 : -0.5);
   return at;
 }
 
@@ -157,7 +156,7 @@ template <int D>
 void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Face& face, Values values,
                                              double factor, Sum& sum) const {
   Index<D> cell = centre_;
-  cell[std::size_t(face.axis)] = face.side ? domain_.grid.shape[std::size_t(face.axis)] - 1 : 0;
+  cell[std::size_t(face.axis)] = face.last;
   const double zp = domain_.impedance(wave_p)(cell), zs = domain_.impedance(wave_s)(cell);
   const double mu = zs * zs, lambda = zp * zp - 2 * mu;
   const auto gradients = row_gradients(at);

@@ -39,12 +39,13 @@ class VelocityGradient {
     Cells cells_;
     std::vector<double> weights_;
   };
-  /// One side of an axis.
+  /// One side of an axis, and the cells that end there.
   struct Face {
     int axis, side;
+    std::int64_t last;
   };
   Cells usable(int row) const {
-    return extended_cells(domain_, centre_, row, fluid_, Reach::to_strong_interfaces);
+    return extended_cells(domain_, centre_, row, fluid_, Reach::to_strong_interfaces).cells;
   }
   /// Adds the derivative per cell along an axis of the velocity `row` at a place, as products of weights.
   void add_product(const Cells& usable, const Place& at, int row, int along, double factor, Sum& sum) const;
