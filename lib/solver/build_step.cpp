@@ -59,7 +59,7 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
   const bool plane_wave = std::holds_alternative<PlaneWave<D>>(source.mechanism);
   Effects<D, Real> all;
   if (absorbs(scene, source)) {
-    const auto settings = plane_wave ? pml_of_plane_wave(scene, source) : PmlSettings{};
+    const auto settings = plane_wave ? pml_of_plane_wave(scene) : PmlSettings{};
     auto pml = std::make_unique<Pml<D, Real>>(state.layout, domain, dt_s, vp_max, source.wavelet.nominal_hz(),
                                               scene.numerics.time_order, ranks, settings);
     if (plane_wave)

@@ -48,7 +48,8 @@ class FittedLab {
   }
 
   void step() {
-    for (const auto& sweep : splitting_) sweeps_.along(sweep.axis, Real(sweep.fraction));
+    for (std::size_t k = 0; k < splitting_.size(); ++k)
+      sweeps_.along(splitting_[k].axis, Real(splitting_[k].fraction), {0, k});
     if (sponge_) sponge_->damp(state_);
   }
 

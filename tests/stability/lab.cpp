@@ -129,9 +129,10 @@ void Lab<Real>::fill_energies() {
 
 template <class Real>
 void Lab<Real>::step() {
-  for (const auto& sweep : splitting_)
-    if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.fraction));
   const solver::StepTime time{steps_, dt_s_};
+  for (std::size_t k = 0; k < splitting_.size(); ++k)
+    if (const auto& sweep = splitting_[k]; sweep.axis == 1 || !along_z_only_)
+      sweeps_->along(sweep.axis, Real(sweep.fraction), {time.step, k});
   if (sponge_) sponge_->damp(state_);
   if (springs_) solver::run_everywhere(*springs_, time, state_);
   if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_); });

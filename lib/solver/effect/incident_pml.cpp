@@ -24,13 +24,9 @@ SweptCells<D, Real> part_of(const SweptCells<D, Real>& swept, const IndexRange& 
 }  // namespace
 
 template <int D>
-PmlSettings pml_of_plane_wave(const Scene<D>& scene, const Source<D>& source) {
-  constexpr double usual_leak = 1e-3, usual_cells = 20;
+PmlSettings pml_of_plane_wave(const Scene<D>& scene) {
   PmlSettings settings;
   settings.idle_cells = reach_of(scene.numerics.order) + 1;
-  // More cells resolve stronger damping.
-  const double cells = std::max(double(zone_cells(scene, source) - settings.idle_cells), 1.);
-  settings.leak = usual_leak * std::min(1., std::pow(usual_cells / cells, 3));
   return settings;
 }
 
@@ -78,7 +74,7 @@ bool IncidentPml<D, Real>::enters(const StepTime& time, std::int64_t row, const 
 }
 
 template <int D, class Real>
-void IncidentPml<D, Real>::filter(const SweptCells<D, Real>& swept, bool remember) {
+void IncidentPml<D, Real>::filter(const SweptCells<D, Real>& swept) {
   const auto axis = swept.axis;
   const auto first = axis > 0 ? swept.row[std::size_t(axis)] : swept.cells.first;
   const int side = first < domain_.low_zone[std::size_t(axis)] ? 0 : 1;
@@ -87,12 +83,12 @@ void IncidentPml<D, Real>::filter(const SweptCells<D, Real>& swept, bool remembe
   auto cell = swept.cells.first;
   if (incident_->enters(axis, side))
     for (; cell < last; cell = std::min(cell + piece, last))
-      filter_piece(part_of(swept, {cell, std::min(cell + piece, last)}), side, remember);
-  if (cell < swept.cells.last) pml_->filter(part_of(swept, {cell, swept.cells.last}), remember);
+      filter_piece(part_of(swept, {cell, std::min(cell + piece, last)}), side);
+  if (cell < swept.cells.last) pml_->filter(part_of(swept, {cell, swept.cells.last}));
 }
 
 template <int D, class Real>
-void IncidentPml<D, Real>::filter_piece(const SweptCells<D, Real>& swept, int side, bool remember) {
+void IncidentPml<D, Real>::filter_piece(const SweptCells<D, Real>& swept, int side) {
   constexpr int rows = FieldRows<D>::count;
   const auto axis = swept.axis;
   const auto n = swept.cells.count();
@@ -114,7 +110,7 @@ void IncidentPml<D, Real>::filter_piece(const SweptCells<D, Real>& swept, int si
       now[i] -= is[std::size_t(row * piece + i)];
     }
   }
-  pml_->filter(part, remember);
+  pml_->filter(part);
   for (const int row : swept.field_rows) {
     Real* const now = swept.now + row * swept.pitch;
     for (std::int64_t i = 0; i < n; ++i) {
@@ -125,8 +121,8 @@ void IncidentPml<D, Real>::filter_piece(const SweptCells<D, Real>& swept, int si
   }
 }
 
-template PmlSettings pml_of_plane_wave(const Scene<2>&, const Source<2>&);
-template PmlSettings pml_of_plane_wave(const Scene<3>&, const Source<3>&);
+template PmlSettings pml_of_plane_wave(const Scene<2>&);
+template PmlSettings pml_of_plane_wave(const Scene<3>&);
 template class IncidentPml<2, float>;
 template class IncidentPml<2, double>;
 template class IncidentPml<3, float>;

@@ -10,7 +10,7 @@ namespace slipwave::solver {
 
 /// Of plane-wave scenes: its outermost cells hold the incident wave.
 template <int D>
-PmlSettings pml_of_plane_wave(const Scene<D>& scene, const Source<D>& source);
+PmlSettings pml_of_plane_wave(const Scene<D>& scene);
 
 /// The PML of a scene with a plane wave: it acts on the scattered field, the fields less the incident wave
 /// (theory.md (E13)). Where that is known, the outermost cells are set to it: there it enters.
@@ -35,7 +35,9 @@ class IncidentPml : public Effect<D, Real> {
     return pml_->filtered(axis, row, cells);
   }
   bool enters(const StepTime& time, std::int64_t row, const IndexRange& columns) const override;
-  void filter(const SweptCells<D, Real>& swept, bool remember) override;
+  void filter(const SweptCells<D, Real>& swept) override;
+  NextSweep next(const SweepTime& time, Real fraction) const override { return pml_->next(time, fraction); }
+  void prepare(const SweptCells<D, Real>& swept) override { pml_->prepare(swept); }
   void serialize(Archive& archive) override;
   void exchange(const IndexRange& rows,
                 const std::function<void(Real* values, std::int64_t count)>& to) override {
@@ -44,7 +46,7 @@ class IncidentPml : public Effect<D, Real> {
   std::int64_t memory_bytes() const override { return pml_->memory_bytes() + incident_->memory_bytes(); }
 
  private:
-  void filter_piece(const SweptCells<D, Real>& swept, int side, bool remember);
+  void filter_piece(const SweptCells<D, Real>& swept, int side);
   bool prescribed(int axis, std::int64_t cell) const;
 
   const Domain<D>& domain_;

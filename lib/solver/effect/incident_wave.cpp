@@ -184,6 +184,7 @@ class Column {
       if (sweeps_.corrects_surface(0)) sweeps_.retain(0, 0, all);
       sweeps_.correct_side_surfaces(0, all);
       work_.time() = {step, n};
+      sweeps_.prepare_along_x(0, all, work_.time());
       sweeps_.along_x(0, all, Real(sweeps_of_step_[n].fraction), boundary_, work_);
       ++made_;
       store();
@@ -221,7 +222,7 @@ class Column {
   std::unique_ptr<IncidentPml<2, Real>> make_pml(const Scene<2>& scene, const Source<2>& source,
                                                  std::vector<double> depths, const PlaneForm<2>& form,
                                                  double dt_s, double vp_max) const {
-    auto settings = pml_of_plane_wave(scene, source);
+    auto settings = pml_of_plane_wave(scene);
     settings.lying = true;
     return std::make_unique<IncidentPml<2, Real>>(
         state_.layout, domain_,

@@ -12,13 +12,16 @@
 namespace slipwave::solver {
 namespace {
 
-// Chosen by measuring the reflection of 20 cells for P and S waves at all angles, and what grows (theory.md).
 /// Growth of d into the layer.
 constexpr int power = 2;
-/// alpha at the model in terms of the source's 2 pi f.
-constexpr double alpha_share = 2;
-/// Damping of all fields besides the complex stretching, as a share of d: everywhere, and more in plates.
-constexpr double damping_share = 0.002, plate_damping_share = 0.05;
+/// What is left in theory of a wave whose offset is that many times its distance to the edge.
+constexpr double grazing_offset = 15, grazing_leak = 0.01;
+/// Largest d times the length of a sweep: sweep and damping are composed to second order in half of it.
+constexpr double most_damped_a_sweep = 2;
+/// alpha in terms of the source's 2 pi f (Komatitsch & Martin 2007: at most pi f).
+constexpr double alpha_share = 0.5;
+/// Damping of all fields in plates besides the complex stretching, as a share of d.
+constexpr double plate_damping_share = 0.05;
 /// Ratio of impedances from which an interface counts as a reflector that may bound a plate.
 constexpr double reflector_ratio = 3;
 
@@ -29,15 +32,12 @@ bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& oth
   return false;
 }
 
-/// Fractions of a step that sweeps along an axis are over, each once.
-std::vector<double> fractions_along(int axis, int dimension, int time_order) {
-  const auto sweeps = splitting(dimension, time_order);
-  std::vector<double> all;
-  if (axis == 0) all.push_back(2 * sweeps.front().fraction);  // the last of a step and the first of the next
-  for (const auto& sweep : sweeps)
-    if (sweep.axis == axis && std::find(all.begin(), all.end(), sweep.fraction) == all.end())
-      all.push_back(sweep.fraction);
-  return all;
+/// The sweeps of a step along axes of the domain.
+std::vector<SweepFraction> sweeps_of(int dimension, int time_order, bool lying) {
+  auto sweeps = splitting(dimension, time_order);
+  for (auto& sweep : sweeps)
+    if (lying) sweep.axis = dimension - 1 - sweep.axis;
+  return sweeps;
 }
 
 /// (V6) at a cell along an axis: found once for a medium, and for neighbours of like rock.
@@ -79,36 +79,21 @@ class BackwardGroupVelocity {
 template <int D, class Real>
 Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max,
                   double slow_hz, int time_order, Ranks* ranks, const PmlSettings& settings)
-    : layout_(layout), cells_(domain.grid.size() - domain.model_grid.size()), kernels_(pml_kernels<Real>()) {
+    : layout_(layout),
+      sweeps_(sweeps_of(D, time_order, settings.lying)),
+      cells_(domain.grid.size() - domain.model_grid.size()),
+      kernels_(pml_kernels<Real>()) {
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
     axis.cells = domain.grid.shape[std::size_t(n)];
     axis.low = domain.low_zone[std::size_t(n)];
     axis.high = domain.high_zone[std::size_t(n)];
-    for (const double fraction : fractions_along(settings.lying ? D - 1 - n : n, D, time_order)) {
-      axis.fractions.push_back(Real(fraction));
-      auto& factors = axis.factors.emplace_back();
-      // A sweep back in time undoes what one forward would damp: all together are one step.
-      const double time = fraction * dt_s;
-      for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
-        const auto zone = slot < axis.low ? axis.low : axis.high;
-        const auto width = std::max<std::int64_t>(zone - settings.idle_cells, 1);
-        const auto inside = std::min(slot < axis.low ? axis.low - 1 - slot : slot - axis.low, width - 1);
-        const double depth = (double(inside) + 0.5) / double(width);
-        const double length = double(width) * domain.grid.spacing_m;
-        const double d =
-            -(power + 1) * vp_max * std::log(settings.leak) / (2 * length) * std::pow(depth, power);
-        const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
-        const double sum = d + alpha, lost = -std::expm1(-sum * time);
-        factors.kept.push_back(Real(std::exp(-damping_share * d * time)));
-        factors.lost_in_plates.push_back(
-            Real(std::exp(-damping_share * d * time) * -std::expm1(-plate_damping_share * d * time)));
-        factors.of_memory.push_back(Real(lost / (sum * dt_s)));
-        factors.of_change.push_back(Real(d / sum * (1 - lost / (sum * time))));
-        factors.left.push_back(Real(1 - lost));
-        factors.added.push_back(Real(lost * d / sum * dt_s / time));
-      }
-    }
+    const auto largest = [&](std::int64_t zone) {
+      return largest_damping(inner_width(zone, settings), domain.grid.spacing_m, dt_s, vp_max);
+    };
+    for (std::size_t k = 0; k < sweeps_.size(); ++k)
+      axis.factors.push_back(
+          make_factors(n, k, {largest(axis.low), largest(axis.high)}, {dt_s, slow_hz}, settings));
     std::int64_t rows = layout.rows();
     if (n > 0) rows *= axis.low + axis.high;
     for (int other = 1; other < D; ++other)
@@ -118,6 +103,41 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
     std::fill(axis.memory.data(), axis.memory.data() + values, Real(0));
     find_plates(n, domain, ranks);
   }
+}
+
+/// The largest d, per second, of a layer of `width` cells: d integrated over the layer and back takes a P
+/// wave that grazes down to what may leak, unless sweeps are too long for that.
+template <int D, class Real>
+double Pml<D, Real>::largest_damping(std::int64_t width, double h, double dt_s, double vp_max) const {
+  const double length = double(width) * h, cosine = 2 / grazing_offset;
+  double longest = 0;
+  for (std::size_t k = 0; k < sweeps_.size(); ++k)
+    longest = std::max(longest, std::abs(fraction_of(k)) * dt_s);
+  return std::min((power + 1) * vp_max * -std::log(grazing_leak) / (2 * length * cosine),
+                  most_damped_a_sweep / longest);
+}
+
+template <int D, class Real>
+auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const std::array<double, 2>& largest,
+                                const Times& times, const PmlSettings& settings) const -> Factors {
+  const auto& layer = axes_[std::size_t(axis)];
+  Factors factors;
+  // A sweep back in time undoes what one forward would damp: all together are one step.
+  const double time = fraction_of(sweep) * times.dt_s;
+  const double alpha = alpha_share * 2 * std::numbers::pi * times.slow_hz;
+  for (std::int64_t slot = 0; slot < layer.low + layer.high; ++slot) {
+    const bool low = slot < layer.low;
+    const auto width = inner_width(low ? layer.low : layer.high, settings);
+    const auto inside = low ? layer.low - 1 - slot : slot - layer.low;
+    const double depth = std::min((double(inside) + 0.5) / double(width), 1.);
+    const double d = largest[low ? 0 : 1] * std::pow(depth, power), sum = d + alpha;
+    const double lost = -std::expm1(-sum * time / 2);
+    // Where fields are prescribed there is nothing to damp.
+    factors.loss.push_back(Real(inside < width ? lost * d / sum : 0));
+    factors.left.push_back(Real(1 - lost));
+    factors.lost_in_plates.push_back(Real(-std::expm1(-plate_damping_share * d * time)));
+  }
+  return factors;
 }
 
 /// Number of a cell in the plane along the edge, x fastest.
@@ -156,8 +176,9 @@ double Pml<D, Real>::most_damped(int axis) const {
   constexpr double most_lost = 0.9;
   double most = std::numeric_limits<double>::infinity();
   for (const auto& factors : axes_[std::size_t(axis)].factors)
-    for (std::size_t slot = 0; slot < factors.kept.size(); ++slot)
-      most = std::min(most, most_lost * double(factors.kept[slot] / factors.lost_in_plates[slot]));
+    for (std::size_t slot = 0; slot < factors.lost_in_plates.size(); ++slot)
+      if (factors.lost_in_plates[slot] > 0)
+        most = std::min(most, most_lost / double(factors.lost_in_plates[slot]));
   return most;
 }
 
@@ -267,7 +288,7 @@ std::array<IndexRange, 2> Pml<D, Real>::filtered(int axis, const Index<D>& line,
 }
 
 template <int D, class Real>
-std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>& line) {
+std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>& line, std::int64_t first) {
   auto& layer = axes_[std::size_t(axis)];
   std::int64_t number = 0;
   for (int other = D - 1; other > 0; --other) {
@@ -276,35 +297,60 @@ std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>&
              (own ? layer.slot(line[std::size_t(other)]) : line[std::size_t(other)]);
   }
   const auto pitch = axis == 0 ? layer.low + layer.high : layout_.padded_nx();
-  return {layer.memory.data() + number * layout_.rows() * pitch, pitch};
+  return {layer.memory.data() + number * layout_.rows() * pitch + (axis == 0 ? layer.slot(first) : first),
+          pitch};
 }
 
 template <int D, class Real>
-void Pml<D, Real>::filter(const SweptCells<D, Real>& swept, bool remember) {
-  const auto& layer = axes_[std::size_t(swept.axis)];
-  const auto known = std::find(layer.fractions.begin(), layer.fractions.end(), swept.fraction);
-  if (known == layer.fractions.end())
+PmlFactors<Real> Pml<D, Real>::factors_of(const SweptCells<D, Real>& swept) const {
+  if (swept.time.sweep >= sweeps_.size() || sweeps_[swept.time.sweep].axis != swept.axis)
     throw Error("the PML knows no sweep along " + std::string(1, axis_names<D>()[std::size_t(swept.axis)]) +
-                " over " + std::to_string(double(swept.fraction)) + " of a step");
-  const auto first = swept.cells.first, cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : first;
-  const auto slot = layer.slot(cell);
-  const auto factors = layer.factors[std::size_t(known - layer.fractions.begin())].from(slot);
+                " as number " + std::to_string(swept.time.sweep + 1) + " of a step");
+  const auto& layer = axes_[std::size_t(swept.axis)];
+  const auto cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : swept.cells.first;
+  return layer.factors[swept.time.sweep].from(layer.slot(cell));
+}
+
+template <int D, class Real>
+NextSweep Pml<D, Real>::next(const SweepTime& time, Real fraction) const {
+  if (begins_pair(time, fraction)) return {};
+  const bool over_end = time.sweep + 1 == sweeps_.size();
+  const auto number = over_end ? 1 : time.sweep + 1;
+  return {sweeps_[number].axis, {time.step + over_end, number}};
+}
+
+template <int D, class Real>
+void Pml<D, Real>::filter(const SweptCells<D, Real>& swept) {
+  const auto factors = factors_of(swept);
+  const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row, swept.cells.first);
+  const auto n = swept.cells.count();
+  const bool begins = begins_pair(swept.time, swept.fraction);
   // Plates of this row, or for an axis across of its cells.
+  const auto& layer = axes_[std::size_t(swept.axis)];
+  const auto cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : swept.cells.first;
   const Real* const plates = layer.plates[cell < layer.low ? 0 : 1].data() +
-                             along_edge(swept.axis, swept.row) + (swept.axis > 0 ? first - swept.row[0] : 0);
-  const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row);
-  Real* const phi = memory + (swept.axis > 0 ? first : slot);
+                             along_edge(swept.axis, swept.row) +
+                             (swept.axis > 0 ? swept.cells.first - swept.row[0] : 0);
   const Real* before = swept.before;
-  for (const int field_row : swept.field_rows) {
-    Real* const now = swept.now + field_row * swept.pitch;
-    if (swept.axis > 0)
-      kernels_.across(swept.cells.count(), factors, plates, before, now, phi + field_row * memory_pitch,
-                      remember);
+  for (const int row : swept.field_rows) {
+    Real *const u = swept.now + row * swept.pitch, *const phi = memory + row * memory_pitch;
+    if (begins)
+      kernels_.collect(n, before, u, phi);
+    else if (swept.axis > 0)
+      kernels_.damp_across(n, factors, plates, before, u, phi);
     else
-      kernels_.along(swept.cells.count(), factors, *plates, before, now, phi + field_row * memory_pitch,
-                     remember);
+      kernels_.damp_along(n, factors, *plates, before, u, phi);
     before += swept.before_pitch;
   }
+}
+
+template <int D, class Real>
+void Pml<D, Real>::prepare(const SweptCells<D, Real>& swept) {
+  const auto factors = factors_of(swept);
+  const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row, swept.cells.first);
+  const auto loop = swept.axis > 0 ? kernels_.prepare_across : kernels_.prepare_along;
+  for (const int row : swept.field_rows)
+    loop(swept.cells.count(), factors, swept.now + row * swept.pitch, memory + row * memory_pitch);
 }
 
 template <int D, class Real>

@@ -7,6 +7,7 @@
 
 #include "base/archive.hpp"
 #include "parallel/ranks.hpp"
+#include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
 
@@ -14,26 +15,23 @@ namespace slipwave::solver {
 
 /// How a PML differs from that of a point source.
 struct PmlSettings {
-  /// Amplitude of a P wave after crossing the layer and back at normal incidence.
-  double leak = 1e-3;
   std::int64_t idle_cells = 0;  // at its outer end, where fields are prescribed
   bool lying = false;           // x of the domain is the last axis of the scene (2-D)
 };
 
 /// A convolutional perfectly matched layer (PML) on the increments of the sweeps (theory.md (E14)). In a zone
-/// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): the
-/// increment of a field in a sweep along that axis, over the fraction `fraction` of a step, loses the memory
-/// phi of earlier increments,
-///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = increment of the sweep per second,
-/// solved exactly for a constant r. Waves of all kinds enter it in all directions without reflection; alpha,
-/// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting. Where the
-/// layer cuts through plates (solid between two reflectors), or through anisotropic rock whose waves turn
-/// (theory.md (V6)), damping of all fields keeps waves from growing; elsewhere there is hardly any, since it
-/// reflects at an angle.
+/// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): with the
+/// memory phi of the increments r (per second) of a field in sweeps along that axis,
+///   u' = r - d phi,   phi' = r - (d + alpha) phi.
+/// A sweep stands between two halves of the damping, solved exactly: the second comes right after it, the
+/// first after the sweep before it along another axis. Waves of all kinds enter it in all directions without
+/// reflection; alpha keeps slow and grazing fields from lasting. Where the layer cuts through plates (solid
+/// between two reflectors), or through anisotropic rock whose waves turn (theory.md (V6)), damping of all
+/// fields keeps waves from growing; elsewhere there is none, since it reflects at an angle.
 template <int D, class Real>
 class Pml : public Effect<D, Real> {
  public:
-  /// `slow_hz`: the frequency below which the stretching decreases, that of the source.
+  /// `slow_hz`: the frequency of the source, below half of which the stretching decreases.
   /// `time_order`: of the splitting the sweeps follow. Collective where there are ranks (may be null).
   Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
       int time_order = 2, Ranks* ranks = nullptr, const PmlSettings& settings = {});
@@ -45,9 +43,12 @@ class Pml : public Effect<D, Real> {
   std::int64_t cells() const override { return cells_; }
   /// The cells of the layer of this axis.
   std::array<IndexRange, 2> filtered(int axis, const Index<D>& row, const IndexRange& cells) const override;
-  /// Subtracts the memory term from increments. Throws an Error where no sweep of the splitting is over that
-  /// fraction of the step.
-  void filter(const SweptCells<D, Real>& swept, bool remember) override;
+  /// Takes increments into the memory and damps the fields over half the sweep. Throws an Error where the
+  /// splitting has another sweep at that time.
+  void filter(const SweptCells<D, Real>& swept) override;
+  NextSweep next(const SweepTime& time, Real fraction) const override;
+  /// Damps the fields over half the sweep.
+  void prepare(const SweptCells<D, Real>& swept) override;
   void serialize(Archive& archive) override {
     for (auto& axis : axes_) archive.fixed(axis.memory.data(), std::size_t(axis.memory.size()));
   }
@@ -57,26 +58,43 @@ class Pml : public Effect<D, Real> {
   std::int64_t memory_bytes() const override;
 
  private:
-  /// Of one fraction of the step, by slot: the factor of the memory and that of the increment in what is
-  /// subtracted, the decay of the memory and the factor of the increment added to it, the damping of the
-  /// field and its additional loss in plates.
+  /// Of one sweep, by slot: the factor of the memory in what is subtracted and its decay over half the sweep,
+  /// and the loss of fields in plates over all of it.
   struct Factors {
-    std::vector<Real> of_memory, of_change, left, added, kept, lost_in_plates;
+    std::vector<Real> loss, left, lost_in_plates;
     PmlFactors<Real> from(std::int64_t slot) const {
-      return {of_memory.data() + slot, of_change.data() + slot, left.data() + slot,
-              added.data() + slot,     kept.data() + slot,      lost_in_plates.data() + slot};
+      return {loss.data() + slot, left.data() + slot, lost_in_plates.data() + slot};
     }
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
-    std::vector<Real> fractions;   // of a step that sweeps along this axis are over
-    std::vector<Factors> factors;  // [fraction], slots: low zone, then high zone, by cells
+    std::vector<Factors> factors;  // [sweep of the step], slots: low zone, then high zone, by cells
     Buffer<Real> memory;
     /// Low and high zone, along the edge: 1 in plates, more where waves turn back, else 0.
     std::array<std::vector<Real>, 2> plates;
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
     bool holds(std::int64_t cell) const { return cell < low || cell >= cells - high; }
   };
+  /// A sweep along x, the first of two that are one over the end of a step.
+  bool begins_pair(const SweepTime& time, Real fraction) const {
+    return time.sweep + 1 == sweeps_.size() && fraction == Real(sweeps_.back().fraction);
+  }
+  /// The factors of a sweep along an axis of the domain, from a cell of the layer on.
+  PmlFactors<Real> factors_of(const SweptCells<D, Real>& swept) const;
+  struct Times {
+    double dt_s, slow_hz;
+  };
+  /// Over which part of a step a sweep damps: the first and the last are one over the end of a step.
+  double fraction_of(std::size_t sweep) const {
+    return (sweep == 0 || sweep + 1 == sweeps_.size() ? 2 : 1) * sweeps_[sweep].fraction;
+  }
+  static std::int64_t inner_width(std::int64_t zone, const PmlSettings& settings) {
+    return std::max<std::int64_t>(zone - settings.idle_cells, 1);
+  }
+  double largest_damping(std::int64_t width, double h, double dt_s, double vp_max) const;
+  /// `largest`: d of the low and the high zone at its outer end, per second.
+  Factors make_factors(int axis, std::size_t sweep, const std::array<double, 2>& largest, const Times& times,
+                       const PmlSettings& settings) const;
   std::int64_t along_edge(int axis, const Index<D>& at) const;
   void find_plates(int axis, const Domain<D>& domain, Ranks* ranks);
   void find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks);
@@ -84,9 +102,10 @@ class Pml : public Effect<D, Real> {
   void find_slopes(int axis, int side, const Domain<D>& domain);
   double most_damped(int axis) const;
   /// Of the field rows of a row of cells: the first value of the first of them, and from one to the next.
-  std::pair<Real*, std::int64_t> memory_of(int axis, const Index<D>& line);
+  std::pair<Real*, std::int64_t> memory_of(int axis, const Index<D>& line, std::int64_t first);
 
   Layout<D> layout_;
+  std::vector<SweepFraction> sweeps_;  // of a step, along axes of the domain
   std::int64_t cells_;
   const PmlKernels<Real>& kernels_;
   std::array<Axis, std::size_t(D)> axes_;

@@ -63,10 +63,10 @@ struct SweptRows {
   Real *passive2 = passive, *vt2 = vt, *st2 = st;
 };
 
-/// Coefficients of the PML (Pml) on an increment, one value for all cells or one per cell.
+/// Coefficients of the PML (Pml), one value for all cells or one per cell.
 template <class Real>
 struct PmlFactors {
-  const Real *of_memory, *of_change, *left, *added, *kept, *lost_in_plates;
+  const Real *loss, *left, *lost_in_plates;
 };
 
 /// Inner loops of a sweep at and between the faces of n neighbouring cells of one row, see Kernels. `lo` and
@@ -219,16 +219,21 @@ struct Kernels {
   BentKernels<Real> bent[2];
 };
 
-/// Loops of the PML: now -= of_memory phi + of_change (now - before), then the damping in plates;
-/// phi = left phi + added (now - before) if `remember`.
+/// Loops of the PML over the field u of a row and its memory phi.
 template <class Real>
 struct PmlKernels {
-  /// Factors by cell, all cells in plates or none.
-  void (*along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* now,
-                Real* phi, bool remember);
+  /// phi += u - before.
+  void (*collect)(std::int64_t n, const Real* before, const Real* u, Real* phi);
+  /// The same, then u -= loss phi and the damping in plates; phi *= left. Factors by cell, all cells in
+  /// plates or none.
+  void (*damp_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* u,
+                     Real* phi);
   /// The same factors for all cells, plates (1) or not (0) by cell.
-  void (*across)(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
-                 Real* now, Real* phi, bool remember);
+  void (*damp_across)(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
+                      Real* u, Real* phi);
+  /// u -= loss phi; phi *= left: factors by cell, then the same for all.
+  void (*prepare_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real* u, Real* phi);
+  void (*prepare_across)(std::int64_t n, const PmlFactors<Real>& of_all, Real* u, Real* phi);
 };
 
 /// Interpolates samples at equal intervals by quintics, at the places place + (first + i) step, counted in

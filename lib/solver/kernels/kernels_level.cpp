@@ -165,33 +165,47 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
   }
 }
 
-template <bool Along, bool Remember, class Real>
-void filter_in(std::int64_t n, const PmlFactors<Real>& factors, Real plate, const Real* plates,
-               const Real* __restrict before, Real* __restrict now, Real* __restrict phi) {
-  const Real *of_memory = factors.of_memory, *of_change = factors.of_change, *left = factors.left,
-             *added = factors.added, *kept = factors.kept, *lost = factors.lost_in_plates;
+template <class Real>
+void collect(std::int64_t n, const Real* __restrict before, const Real* __restrict u, Real* __restrict phi) {
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) phi[i] += u[i] - before[i];
+}
+
+template <bool Along, class Real>
+void damp(std::int64_t n, const PmlFactors<Real>& factors, Real plate, const Real* plates,
+          const Real* __restrict before, Real* __restrict u, Real* __restrict phi) {
+  const Real *loss = factors.loss, *left = factors.left, *lost = factors.lost_in_plates;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const std::int64_t f = Along ? i : 0;
-    const Real change = now[i] - before[i];
     const Real in_plate = Along ? plate : plates[i];
-    now[i] = (now[i] - (of_memory[f] * phi[i] + of_change[f] * change)) * (kept[f] - in_plate * lost[f]);
-    if constexpr (Remember) phi[i] = left[f] * phi[i] + added[f] * change;
+    const Real all = phi[i] + (u[i] - before[i]);
+    u[i] = (u[i] - loss[f] * all) * (1 - in_plate * lost[f]);
+    phi[i] = left[f] * all;
   }
 }
 
 template <class Real>
-void filter_along(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* now,
-                  Real* phi, bool remember) {
-  const auto loop = remember ? filter_in<true, true, Real> : filter_in<true, false, Real>;
-  loop(n, by_cell, plate, nullptr, before, now, phi);
+void damp_along(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* u,
+                Real* phi) {
+  damp<true, Real>(n, by_cell, plate, nullptr, before, u, phi);
 }
 
 template <class Real>
-void filter_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
-                   Real* now, Real* phi, bool remember) {
-  const auto loop = remember ? filter_in<false, true, Real> : filter_in<false, false, Real>;
-  loop(n, of_all, Real(0), plates, before, now, phi);
+void damp_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
+                 Real* u, Real* phi) {
+  damp<false, Real>(n, of_all, Real(0), plates, before, u, phi);
+}
+
+template <bool Along, class Real>
+void prepare(std::int64_t n, const PmlFactors<Real>& factors, Real* __restrict u, Real* __restrict phi) {
+  const Real *loss = factors.loss, *left = factors.left;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::int64_t f = Along ? i : 0;
+    u[i] -= loss[f] * phi[i];
+    phi[i] *= left[f];
+  }
 }
 
 template <class Real>
@@ -246,8 +260,12 @@ const Kernels<Real>* of_order(int order) {
 
 template <class Real>
 constexpr KernelTables<Real> tables = {
-    of_order<false, Real>, of_order<true, Real>, {filter_along<Real>, filter_across<Real>},
-    interpolate<Real>,     SLIPWAVE_SLIP_LEVEL,  SLIPWAVE_RELAXATION_LEVEL,
+    of_order<false, Real>,
+    of_order<true, Real>,
+    {collect<Real>, damp_along<Real>, damp_across<Real>, prepare<true, Real>, prepare<false, Real>},
+    interpolate<Real>,
+    SLIPWAVE_SLIP_LEVEL,
+    SLIPWAVE_RELAXATION_LEVEL,
     SLIPWAVE_SERIES_LEVEL};
 
 }  // namespace

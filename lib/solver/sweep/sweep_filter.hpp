@@ -20,6 +20,12 @@ struct StepTime {
 /// How many steps rows may be apart.
 inline constexpr std::int64_t most_steps_in_progress = 32;
 
+/// The sweep that comes next, along which axis: none where that is -1.
+struct NextSweep {
+  int axis = -1;
+  SweepTime time{};
+};
+
 /// Cells of a row that a sweep has advanced, of an effect that filters what it added.
 template <int D, class Real>
 struct SweptCells {
@@ -45,8 +51,12 @@ class SweepFilter {
   virtual std::array<IndexRange, 2> filtered(int /*axis*/, const Index<D>& /*row*/, const IndexRange&) const {
     return {};
   }
-  /// Changes the increments in such a range. Only with `remember` its memory advances.
-  virtual void filter(const SweptCells<D, Real>&, bool /*remember*/) {}
+  /// Changes the increments in such a range.
+  virtual void filter(const SweptCells<D, Real>&) {}
+  /// The sweep before which it changes cells, when such a one over that fraction of the step has been made.
+  virtual NextSweep next(const SweepTime&, Real /*fraction*/) const { return {}; }
+  /// Changes those cells that it filters in the sweep to come, `swept.time`: `before` is not set.
+  virtual void prepare(const SweptCells<D, Real>&) {}
 };
 
 }  // namespace slipwave::solver

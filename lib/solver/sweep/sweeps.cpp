@@ -447,7 +447,8 @@ template <class Advance>
 void Sweeps<D, Real>::filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
                                Real scale, std::int64_t pitch, Workspace<Real>& work, bool remember,
                                Advance&& advance) {
-  if (filters_.empty()) return advance();
+  // What copies ahead hold of the zones is read by nothing.
+  if (filters_.empty() || !remember) return advance();
   const auto& rows = changed_[axis];
   const int row_count = rows_changed();
   // Built in place: a copy would wait until all stores of the loops before this are done.
@@ -475,9 +476,20 @@ void Sweeps<D, Real>::filtered(int axis, const Index<D>& line, const IndexRange&
                    work.pitch(),
                    fields + part.first,
                    pitch,
-                   work.time()},
-                  remember);
+                   work.time()});
   });
+  for (auto* const filter : filters_)
+    if (const auto next = filter->next(work.time(), scale); next.axis >= 0)
+      prepare(*filter, next, line, columns, fields, pitch);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::prepare(SweepFilter<D, Real>& filter, const NextSweep& next, const Index<D>& line,
+                              const IndexRange& columns, Real* fields, std::int64_t pitch) const {
+  const std::span<const int> rows{changed_[std::size_t(next.axis)].data(), std::size_t(rows_changed())};
+  for (const auto& part : filter.filtered(next.axis, line, columns))
+    if (!part.empty())
+      filter.prepare({next.axis, 0, line, part, rows, nullptr, 0, fields + part.first, pitch, next.time});
 }
 
 /// Advances these columns.
@@ -921,6 +933,9 @@ bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t ro
   bent_kernels().advance_across[fluid](columns.count(), scale, face, of);
   solve_anisotropic_across(at, row, columns, face, scale < 0 ? -1 : 1, fluid);
   anisotropic_across_.add_stress(state_.layout.line_number(advanced), columns, std::abs(scale), of);
+  for (auto* const filter : filters_)
+    if (const auto next = filter->next(work.time(), scale); next.axis >= 0)
+      prepare(*filter, next, advanced, columns, state_.field_row(advanced, 0), state_.layout.row_pitch());
   work.prefetch().prefetch(prefetched_by_bent + 2);
   return true;
 }

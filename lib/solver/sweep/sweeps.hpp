@@ -47,6 +47,12 @@ class Sweeps {
 
   /// A whole sweep along any axis, distributed to threads.
   void along(int axis, Real scale, const SweepTime& time = {});
+  /// Lets filters change these columns before a sweep along x that follows none along another axis.
+  void prepare_along_x(std::int64_t line, const IndexRange& columns, const SweepTime& time) const {
+    for (auto* const filter : filters_)
+      prepare(*filter, {0, time}, state_.layout.line_index(line), columns, state_.row_fields(line).first,
+              state_.layout.row_pitch());
+  }
 
   /// A piece of a sweep along x: advances columns `columns` of a row. Pieces of a row follow each other from
   /// cell 0 to the last, `boundary` passes values from one to the next. 2 * lag further cells must not change
@@ -194,6 +200,8 @@ class Sweeps {
   IndexRange lagging(const IndexRange& columns) const {
     return {columns.first == 0 ? 0 : columns.first + lag, columns.last + 2 * lag};
   }
+  void prepare(SweepFilter<D, Real>& filter, const NextSweep& next, const Index<D>& line,
+               const IndexRange& columns, Real* fields, std::int64_t pitch) const;
   template <class Advance>
   void filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, Real scale,
                 std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
