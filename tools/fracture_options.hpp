@@ -59,8 +59,8 @@ inline void declare_laws(cli::Options& options, FractureSettings& settings) {
   options.add("fill", settings.compliance.fill_pa, "PA",
               "bulk modulus of the fluid in the cracks: water 2.2e9 [0: dry]");
   options.add("effective", settings.effective,
-              "change the rock instead: speeds, epsilon, delta and tilt that it has with the planes, "
-              "for waves much longer than the spacing");
+              "change the rock instead: speeds, epsilon, delta and tilt of the equivalent rock for waves "
+              "much longer than the spacing");
 }
 
 /// Single fractures, by --compliance or --stiffness of each, and networks of them.
@@ -76,18 +76,19 @@ inline void declare_single(cli::Options& options, FractureSettings& settings) {
   options.add("rectangle", settings.rectangles, "X,Y,Z:L,W[:DIP]",
               "or a rectangle, L long down its dip and W wide; repeatable");
   options.add("open", settings.open,
-              "single fractures carry no traction: open cracks, instead of --compliance; level or upright "
-              "ones, which --faces moves to the nearest face between cells");
-  options.add("faces", settings.faces,
-              "single fractures part the faces between cells instead of softening the cells beside them: for "
-              "compliances above 2e-10 m/Pa, and for friction; level or upright ones");
+              "single fractures carry no traction: open cracks, instead of --compliance; horizontal or "
+              "vertical ones, moved to the nearest face between cells");
+  options.add(
+      "faces", settings.faces,
+      "single fractures split the faces between cells instead of softening the cells beside them: for "
+      "compliances above 2e-10 m/Pa, and for friction; horizontal or vertical ones");
   options.add(
       "network", settings.network, "N",
       "or N straight single fractures with centres drawn from the region, of --length, about --dip; in "
       "3-D discs of --radius");
   options.add("intensity", settings.intensity, "P",
-              "instead of N: metres of single fractures in a square metre of the region (P21), in 3-D square "
-              "metres in a cubic metre (P32)");
+              "instead of N: length of single fractures per area of the region, 1/m (P21), in 3-D area per "
+              "volume (P32)");
   options.add("length", settings.length, "MIN:MAX[:EXPONENT]",
               "lengths of a network, m: their density falls as a power of the length [2]");
   options.add("radius", settings.radius, "MIN:MAX[:EXPONENT]", "in 3-D radii of its discs, m, likewise");
@@ -122,7 +123,7 @@ inline void declare(cli::Options& options, FractureSettings& settings) {
   options.add("opening", settings.opening, "planes open under tension; otherwise they carry it");
   options.add(
       "prestress", settings.prestress, "STRESS",
-      "static stress of these cells, Pa: none, lithostatic[:K0] (the overburden; sideways K0 times that "
+      "static stress of these cells, Pa: none, lithostatic[:K0] (the overburden; horizontally K0 times that "
       "[lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, in 3-D SXX,SYY,SZZ,SXY,SXZ,SYZ, tension "
       "positive");
   options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");

@@ -34,7 +34,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
               "with --geometry: x axis on its map, clockwise from north [90]");
   options.add("source-depth", s.survey.source_depth, "Z",
               "with --geometry: depth of sources instead of the file's");
-  options.add("receiver-depth", s.survey.receiver_depth, "Z", "the same of all receivers");
+  options.add("receiver-depth", s.survey.receiver_depth, "Z", "the same for all receivers");
   options.add("blend", s.survey.blend, "FILE", "table of shots that are fired into one record");
   options.add("shots", s.survey.shots, "LIST", "only these shots of the survey, by number: 3,10:20");
   options.add("time", s.duration_s, "T", "length of the traces, s");
@@ -47,10 +47,10 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
       "boundary at z = 0: free (no traction), absorbing, rigid (no motion) or mirror (a plane of symmetry: "
       "no motion across it, no shear traction)");
   options.add_choice("sides", s.sides, edges,
-                     "the same of the left and right boundaries, in 3-D of all four");
-  options.add_choice("bottom", s.bottom, edges, "the same of the boundary at the bottom");
+                     "the same for the left and right boundaries, in 3-D for all four");
+  options.add_choice("bottom", s.bottom, edges, "the same for the boundary at the bottom");
   options.add_choice("ground", s.ground, {"free", "absorbing"},
-                     "the same of the ground below void, where rows of cells begin at it");
+                     "the same for the ground below void, where rows of cells begin at it");
   options.add("edge-width", s.edge_width, "CELLS",
               "width of the absorbing zones outside the model; 0: 20, for plane waves 2/3 wavelength");
   options.add("without", s.without, "LIST",
@@ -83,7 +83,7 @@ inline void declare_numerics(cli::Options& options, SceneOptions& s) {
   options.add_choice("order", s.order, texts_of(orders), "order of the scheme in space");
   options.add_choice("time-order", s.time_order, texts_of(time_orders),
                      "order in time; 4: five times the work per step, --cfl up to 2");
-  options.add("monotone", s.monotone, "no overshoots: keep waves to the criterion of monotonicity");
+  options.add("monotone", s.monotone, "no overshoots: limit waves by the criterion of monotonicity");
   options.add_choice("correction", s.correction, {"first", "second", "exponential", "centred"},
                      "time integration of slip: of first or second order, exact per step, or of second order "
                      "for the waves, too");

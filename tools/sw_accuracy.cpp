@@ -51,7 +51,7 @@ void declare(cli::Options& options, Settings& s) {
   options.excludes("case", of_scene, "the case is a scene of its own");
   options.excludes("case", {"reference"}, "it has a closed form");
   options.add_threads();
-  options.headings({{"case", "What is varied"}});
+  options.headings({{"case", "Settings to vary"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "case", "steps",
                   "orders", "cfls", "reference", "error", "output", "json"});
   // A configuration of sw-shoot says what is shot; how is varied here.

@@ -67,7 +67,7 @@ void declare(cli::Options& options, Settings& settings) {
       "units", settings.units, "LIST",
       "units of numbers that name none (raw, SEG-Y, constants) instead of m/s, kg/m3 and Pa: km/s,g/cm3,GPa");
   options.add("allow-rough", settings.allow_rough,
-              "take --shape though columns then do not continue each other, and traces of SEG-Y as columns "
+              "take --shape even if neighbouring columns then differ, and traces of SEG-Y as columns "
               "whatever their headers say");
   options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 in solids");
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");

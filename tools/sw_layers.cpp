@@ -43,24 +43,24 @@ void declare(cli::Options& options, Settings& settings) {
       "stiffnesses: '0:-:-:2300 c11=26e9 ...'");
   options.add(
       "log", settings.log, "FILE",
-      "a well log as a layer from its first depth on: LAS 2.0, or columns below a header as \"DEPTH.M "
+      "a well log as a layer from its first depth on: LAS 2.0, or columns below a header such as \"DEPTH.M "
       "VP.M/S VS.M/S RHO.G/CC\"; sonics count too. Each cell is the average of its samples");
   options.add("block", settings.block_m, "H", "average the log over blocks of H m instead");
   options.add("backus", settings.backus,
               "average the log in each cell as flat layers (Backus), with the anisotropy of their average");
   options.add_choice("vs-from-vp", settings.vs_from, {"castagna"},
-                     "of a log without vs: vs = (vp - 1360)/1.16 in solids");
+                     "for a log without vs: vs = (vp - 1360)/1.16 in solids");
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
   options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
-                     "of a log without density: rho = 310 vp^0.25");
+                     "for a log without density: rho = 310 vp^0.25");
   options.add(
       "fit", settings.fit, "surface,floor|all|none",
-      "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");
+      "which tops rows of cells follow, where tops lie on no faces: by default all that rows can follow");
   options.add("units", settings.units, "LIST",
               "units of VP, VS and RHO instead of m/s and kg/m3, as km/s,g/cm3; K stays per second (kg/m4)");
   options.add("average", settings.average, "tilted|isotropic|none",
-              "what cells cut by a top are made of: where all is solid, in 2-D, the average of layers that "
-              "dip as the top does; the isotropic average of their parts; or what is at their centre");
+              "material of cells cut by a top: where all is solid, in 2-D, the average of layers that dip as "
+              "the top does; the isotropic average of their parts; or the material at their centre");
   options.add("no-average", settings.no_average, "the same as --average none");
   options.add("title", settings.title, "TEXT", "title of the model file");
   options.add("allow-slow", settings.limits.allow_slow,

@@ -35,8 +35,8 @@ void declare(cli::Options& options, Settings& settings) {
               "one vp/vs for all rock, instead of by lithology");
   options.add(
       "fit", settings.fit, "floor|none",
-      "let rows of cells follow the sea floor where it lies on no face of them: done if possible, unless "
-      "given");
+      "let rows of cells follow the sea floor where it lies on no face of cells, or never; by default if "
+      "possible");
   options.add("no-average", settings.no_average,
               "cells with several beds take the material at their centre, not the average");
   options.add("title", settings.title, "TEXT", "title of the model file");

@@ -95,7 +95,7 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   if (texts.interpolate || texts.nearest) settings.look.interpolate = texts.interpolate;
   settings.gather.axis = plot::trace_axis_named(texts.axis);
   if (settings.overlay && texts.style == "both")
-    throw Error("--overlay: draws lines, which --style both does not go with", ErrorKind::usage);
+    throw Error("--overlay draws lines only, expected --style wiggle", ErrorKind::usage);
   if (settings.gather.difference_gain == 0)
     throw Error("--difference-gain: found 0, expected a number other than 0", ErrorKind::usage);
   settings.gather.density = texts.style != "wiggle";

@@ -17,21 +17,22 @@ void declare(cli::Options& options, ShootingOptions& s) {
       "error", s.wanted_error, "SHARE",
       "choose the cheapest order, cell size and time step whose measured error is at most this (0.01: 1 %)");
   options.add("of", s.error_of, "WHAT",
-              "what errors are of: traces, or response (what fractures add to them)");
+              "what errors are measured of: traces, or response (what fractures add to them)");
   options.add("budget", s.budget_s, "S", "with --error: at most this much processor time, s");
-  options.add("measure", s.measure, "measure the error, by runs in larger cells; with --plan by those alone");
+  options.add("measure", s.measure,
+              "measure the error, by runs in larger cells; with --plan only these are run");
   options.add("error-gather", s.error_gather, "FILE",
               "write the measured error of each trace here, as SEG-Y");
   options.add("plan", s.plan, "print dispersion, time and memory, and stop; with -v all details");
-  options.add("json", s.json, "with --plan, --measure, --error: print all of it as one JSON object");
+  options.add("json", s.json, "with --plan, --measure, --error: print all results as one JSON object");
   options.add("inject", s.scene.survey.inject, "GATHER",
               "traces as sources where they were recorded: velocities as forces, p as explosions");
-  options.add("reverse", s.scene.survey.reverse, "with --inject: reversed in time");
+  options.add("reverse", s.scene.survey.reverse, "with --inject: reverse the traces in time");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y, Seismic Unix if the name ends in .su; {component} and {shot} in the name split the "
               "traces; - is standard output");
   options.add_choice("revision", s.output.revision, {"auto", "0", "1", "2"},
-                     "revision of SEG-Y; auto: 1, and 2 where 1 can not hold the sampling");
+                     "revision of SEG-Y; auto: 1, or 2 where 1 cannot hold the sampling");
   options.add("snapshots", s.output.snapshots, "FILE",
               "write snapshots of the wave field to this netCDF file");
   options.add("every", s.snapshot_every_s, "S", "time between snapshots, s");

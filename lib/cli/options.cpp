@@ -160,7 +160,7 @@ void Options::positional(std::vector<std::string>& to, const std::string& placeh
 void Options::add_threads() { declare("threads", "N", "").store = nullptr; }
 
 void Options::add_log() {
-  auto& option = declare("log", "FILE", "append what is said, with the time, to this file");
+  auto& option = declare("log", "FILE", "append all messages, with the time, to this file");
   option.provenance = false;
   option.store = nullptr;
 }

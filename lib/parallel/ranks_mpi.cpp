@@ -127,7 +127,7 @@ std::unique_ptr<Ranks> started_ranks() {
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given);
   auto ranks = std::make_unique<MpiRanks>(MPI_COMM_WORLD);
   if (given < MPI_THREAD_SERIALIZED)
-    throw Error("found an MPI for one thread a process alone, expected one that any thread may call");
+    throw Error("found an MPI without support for threads, expected MPI_THREAD_SERIALIZED");
   if (ranks->count() == 1) ranks.reset();
   return ranks;
 }

@@ -83,7 +83,8 @@ class InjectionReader {
     const double end_s = first.start_s + double(first.count - 1) * first.interval_s;
     const double last_s = axis.start_s + double(axis.count - 1) * axis.interval_s;
     if (reversed_ && last_s > end_s + axis.interval_s / 2)
-      throw Error("ends at " + shown(last_s) + " s, after the first trace, expected all of them as long");
+      throw Error("ends at " + shown(last_s) +
+                  " s, later than the first trace, expected traces of one length");
     source.recorded.emplace(injected(axis, trace.samples, reversed_, end_s),
                             source.from + (reversed_ ? ", reversed" : ""));
     shot_of(header.shot).sources.push_back(std::move(source));

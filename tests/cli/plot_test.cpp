@@ -260,7 +260,7 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
   refused("g.sgy --component p --difference -o x.png", 2,
           "--difference: found 1 gather, expected two: FILE less FILE");
   refused("g.sgy --component p --overlay --style both -o x.png", 2,
-          "--overlay: draws lines, which --style both does not go with");
+          "--overlay draws lines only, expected --style wiggle");
   refused("g.sgy g.sgy --component p --difference --difference-gain 0 -o x.png", 2,
           "--difference-gain: found 0, expected a number other than 0");
   refused("g.sgy --component p,vx -o x.png", 2, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
