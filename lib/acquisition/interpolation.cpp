@@ -23,15 +23,13 @@ struct Fit {
   double stopband;                    // waves from here on are suppressed,
   double suppression;                 // with this weight
   int widest_beside, moments_beside;  // the same where cells do not surround the point evenly
-  int widest_beyond;                  // and where it is beyond the last of them
 };
 /// A larger passband helps below six cells per wavelength and hurts above.
 constexpr Fit to_interpolate = {
-    widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4, widest_beyond};
+    widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
 /// A stopband from lower wavenumbers on, or a smaller passband, helps near the source and hurts below ten
 /// cells per wavelength.
-constexpr Fit to_spread = {widest_spread,   1, 6, 2.1, 0.1 * (std::numbers::pi - 2.1), narrowest_spread, 4,
-                           narrowest_spread};
+constexpr Fit to_spread = {widest_spread, 1, 6, 2.1, 0.1 * (std::numbers::pi - 2.1), narrowest_spread, 4};
 
 /// Keeps the fit solvable; far below its errors.
 constexpr double ridge = 1e-13;
@@ -137,8 +135,7 @@ std::vector<CellWeight> weights_round(double position, const AxisCells& usable, 
   const auto [low, high] = window(usable, fit);
   const auto centred = [&](int count) { return std::int64_t(std::floor(position - 0.5 * (count - 2))); };
   const bool around = centred(most_cells) >= low && centred(most_cells) + most_cells - 1 <= high;
-  const bool beyond = wanted == Wanted::value && (position < double(low) || position > double(high));
-  const int most = around ? most_cells : std::min(most_cells, beyond ? fit.widest_beyond : fit.widest_beside);
+  const int most = around ? most_cells : std::min(most_cells, fit.widest_beside);
   const int count = int(std::min<std::int64_t>(most, high - low + 1));
   const std::int64_t first = std::clamp(centred(count), low, high - count + 1);
   const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_beside, fit, wanted);

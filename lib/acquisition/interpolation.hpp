@@ -34,9 +34,8 @@ struct PointWeight {
 
 /// Widest stencil along an axis.
 inline constexpr int widest_stencil = 8;
-/// Cells taken where a point is beyond the last centre of an axis, next to an interface: a parabola, whose
-/// error is less than that of the scheme. Each further cell would double what is left there of waves of two
-/// cells.
+/// Cells that sources and receivers take where they are beyond the last centre of an axis, next to an
+/// interface: a parabola. Each further cell would double what the scheme leaves there of waves of two cells.
 inline constexpr int widest_beyond = 3;
 /// In cells: a point as near as this to a face is on it, since depths of fitted rows are found by iteration.
 inline constexpr double on_face = 1e-6;
@@ -55,7 +54,7 @@ inline constexpr int widest_spread = 14, narrowest_spread = 8;
 ///   4 on both sides                     7e-6  4e-5  7e-6  6e-6  1e-3  1e-2
 ///   8, point between cells 1 and 2      2e-5  9e-5  2e-5  2e-5  3e-3  3e-2
 ///   8, point between cells 0 and 1      9e-5  4e-4  1e-4  8e-5  1e-2  0.1
-///   3, half a cell beyond the last      1e-2  8e-2  0.1   0.3   0.6   1
+///   8, point beyond the last centre     9e-4  4e-3  1e-3  9e-4  0.1   1
 /// position must lie in cells low .. high, faces included: low - 1/2 <= position <= high + 1/2.
 std::vector<CellWeight> axis_weights(double position, const AxisCells& usable,
                                      int most_cells = widest_stencil);

@@ -267,15 +267,25 @@ Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
   return at;
 }
 
-/// The cells that a point reads or adds to: up to strong interfaces, unless too few are there.
+/// The cells that a point reads or adds to: up to strong interfaces, unless too few are there, and only the
+/// last ones where it is beyond their centres.
 template <int D>
-static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& centre, int field_row,
-                                       bool fluid) {
+static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& centre, const Point<D>& place,
+                                       int field_row, bool fluid) {
   const auto near = extended_cells(domain, centre, field_row, fluid, Reach::to_strong_interfaces);
   const bool enough = std::all_of(near.cells.begin(), near.cells.end(), [](const AxisCells& cells) {
     return cells.high - cells.low + 1 >= widest_beyond;
   });
-  return enough ? near : extended_cells(domain, centre, field_row, fluid);
+  auto usable = enough ? near : extended_cells(domain, centre, field_row, fluid);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    auto& cells = usable.cells[axis];
+    const double position = domain.grid.position(int(axis), place[axis]);
+    if (position < double(cells.low) && cells.below == Beyond::unknown)
+      cells = {cells.low, std::min(cells.high, cells.low + widest_beyond - 1)};
+    else if (position > double(cells.high) && cells.above == Beyond::unknown)
+      cells = {std::max(cells.low, cells.high - widest_beyond + 1), cells.high};
+  }
+  return usable;
 }
 
 template <int D>
@@ -283,8 +293,8 @@ std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& d
                                      const Point<D>& point_m, int field_row, Side side) {
   const Index<D> centre = cell_at(domain, point_m, side);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
-  const auto usable = cells_of_point(domain, centre, field_row, fluid);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  const auto usable = cells_of_point(domain, centre, place, field_row, fluid);
   std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable.cells, field_row);
   if (!fluid && field_row < D)
     for (int axis = 0; axis < D; ++axis)
@@ -300,8 +310,8 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
   const Index<D> centre = cell_at(domain, point_m, side);
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
     return row_weights(layout, domain, point_m, field_row, side);
-  auto usable = cells_of_point(domain, centre, field_row, false);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  auto usable = cells_of_point(domain, centre, place, field_row, false);
   for (int axis = 0; axis < D; ++axis) {
     auto& cells = usable.cells[std::size_t(axis)];
     const auto& ends_free = usable.ends_free[std::size_t(axis)];
