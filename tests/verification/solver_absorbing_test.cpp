@@ -103,7 +103,6 @@ std::array<double, 2> grazing_errors(int cells) {
           relative_error(near.traces[1].samples, far.traces[1].samples)};
 }
 
-// Filtered increments sent back 4 and 30 %, with 40 cells half of it.
 // Proves (E14a). Proves (E14b).
 TEST(AbsorbingEdge, TakesUpWavesThatGrazeItWithAnErrorOfSecondOrderInItsCells) {
   const auto of_20 = grazing_errors(20), of_40 = grazing_errors(40);
