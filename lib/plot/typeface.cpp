@@ -51,9 +51,9 @@ Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold)
 }  // namespace
 
 void expect_room() {
-  // Typefaces, and three threads that look for them with a stack of 8 MiB each, take some 60 MiB of
-  // addresses.
-  constexpr std::size_t room = std::size_t(128) << 20;
+  // Typefaces take some 36 MiB of addresses; three threads that look for them a stack of 8 MiB each, and the
+  // C library 128 MiB for the heap of each, half of which it gives back.
+  constexpr std::size_t room = std::size_t(36 + 3 * (8 + 128)) << 20;
   void* const addresses = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (addresses == MAP_FAILED) throw std::bad_alloc();
   munmap(addresses, room);

@@ -17,7 +17,7 @@ TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
     write(command.output, "older");
     const auto before = files();
     bool done_once = false;
-    for (int kibibytes = 40000; kibibytes <= 400000 && !done_once; kibibytes += 4000) {
+    for (int kibibytes = 40000; kibibytes <= 800000 && !done_once; kibibytes += 4000) {
       const Ran ran = run("ulimit -v " + std::to_string(kibibytes) + "; " + command.to_file());
       // The dynamic loader and libraries that start up before main() have their own words for what they have
       // no room for.

@@ -15,7 +15,7 @@ std::vector<FaultScene::Command> FaultScene::commands() {
       " in/m.nc --source 150,10 --receivers 0:300:50,10 --wavelet ricker:10 --time 0.1 --record vx,vz";
   return {
       {"sw-layers", "--size 300x200 --step 5 --layer 0:2000:1000:2000 -o {}", "out.nc"},
-      {"sw-marmousi", "--size 300x200 --step 10 -o {}", "out.nc"},
+      {"sw-marmousi", "--size 300x200 --step 10 --water 50 -o {}", "out.nc"},
       {"sw-import", "--vp in/m.nc --vs in/m.nc --rho in/m.nc -o {}", "out.nc"},
       {"sw-import", "--vp in/vp.sgy --step 10 --vs-from-vp castagna --rho-from-vp gardner -o {}", "out.nc"},
       {"sw-fracture", "in/m.nc --box 100:200,120:150 --dip 45 --friction 0.1 --viscosity 1 -o {}", "out.nc"},

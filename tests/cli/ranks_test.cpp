@@ -126,7 +126,7 @@ TEST_F(ShotByRanks, KeepsWhatAnUnstableShotRecorded) {
   const auto ran = run("LD_PRELOAD=" SLIPWAVE_SHIM " SLIPWAVE_FAULT=unit " +
                        line(2,
                             "m.nc --source 390,310 --wavelet ricker:25 --time 0.4 --receivers 10,10 "
-                            "--amplitude 3e37 --keep-unstable -o o.sgy"));
+                            "--amplitude 1e38 --keep-unstable -o o.sgy"));
   EXPECT_EQ(ran.code, 3);
   EXPECT_NE(said(ran).find("the simulation became unstable at x="), std::string::npos) << ran.err;
   EXPECT_NE(said(ran).find("is in unstable-o.sgy\n"), std::string::npos) << ran.err;

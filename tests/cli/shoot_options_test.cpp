@@ -76,7 +76,7 @@ TEST_F(ShootOptions, OfTheBoxLeaveTheGroundInsideItFree) {
   // Rows begin at the ground, or void is inside the grid, on faces and off them.
   for (const std::string ground : {"sine,50,20,300", "50", "52", "52 --fit none"}) {
     const auto depth = ground.substr(0, ground.find(' ')), fit = ground.substr(depth.size());
-    done("sw-layers --size 400x200 --step 5 --layer " + depth + ":3000:1500:2200" + fit + " -o hill.nc");
+    done("sw-layers -q --size 400x200 --step 5 --layer " + depth + ":3000:1500:2200" + fit + " -o hill.nc");
     done(here + "-o hill.sgy");
     EXPECT_FALSE(traces_differ("--top absorbing ")) << ground;
     const bool fitted = ground.front() == 's' || ground == "52";

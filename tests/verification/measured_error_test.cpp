@@ -38,8 +38,11 @@ void add(const ClosedForm<D>& closed, Score& score) {
   const auto scene = closed.scene();
   SceneRuns<D> runs(scene, {{1}, false});
   const auto measured = measured_error(runs, setting_of(scene));
-  const auto found = gather_error(runs.run(setting_of(scene)).observed, closed.exact()).whole;
-  score.add(closed.name, measured.error.whole, found);
+  const auto found = gather_error(runs.run(setting_of(scene)).observed, closed.exact());
+  if (std::getenv("SLIPWAVE_SHOW"))
+    for (const auto& [component, error] : found.components)
+      std::printf("%s %.3g, ", std::string(name_of(component)).c_str(), 100 * error);
+  score.add(closed.name, measured.error.whole, found.whole);
 }
 
 TEST(MeasuredError, IsThatOfClosedForms) {

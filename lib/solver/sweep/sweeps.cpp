@@ -1077,10 +1077,11 @@ Image<Real> image_of(std::int64_t j, std::int64_t cells, const Mirror<Real>& edg
 
 template <int D, class Real>
 void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& columns) {
-  const IndexRange at = axis == 0 ? columns : [&] {
-    const auto row = state_.layout.line_index(line)[std::size_t(axis)];
-    return IndexRange{row, row + 1};
-  }();
+  IndexRange at = columns;
+  if (axis > 0) {
+    at.first = state_.layout.line_index(line)[std::size_t(axis)];
+    at.last = at.first + 1;
+  }
   if (axis == 0 && split_) split_->retain(line, lagging(columns));
   for (auto& surface : beside_void_[axis])
     if (!surface.empty()) surface.retain(state_, line, axis == 0 ? lagging(columns) : columns);
