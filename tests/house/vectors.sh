@@ -147,10 +147,11 @@ want() {
             need("advance_bent_across<" of, 26 * d)
           }
         }
-        # Along and across, with and without memory of the change.
+        need("collect<" real ">", 2)
+        # Along and across.
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"
-          need("filter_in<" along ", true, " real ">", 11); need("filter_in<" along ", false, " real ">", 8)
+          need("damp_" (way ? "along" : "across") "<" real ">", 8); need("prepare<" along ", " real ">", 3)
         }
       }
       if (!bad) printf "%s: %d kernels on vectors of %d bits\n", level, kernels, width

@@ -140,9 +140,9 @@ TEST_F(Temperature, IsDrawnAndExported) {
   done("sw-export hot.nc --property temperature -o t.sgy");
   done("sw-import --vp cold.nc --vs cold.nc --rho cold.nc --step 5 --temperature t.sgy -o again.nc");
   EXPECT_TRUE(same(model("again.nc").medium[temperature], model("hot.nc").medium[temperature]));
-  expect_refused("sw-plot cold.nc --property temperature", 1,
+  expect_refused("sw-plot cold.nc --property temperature", 2,
                  "sw-plot: cold.nc: found no variable 'temperature', expected a model with it");
-  expect_refused("sw-export cold.nc --property temperature", 1,
+  expect_refused("sw-export cold.nc --property temperature", 2,
                  "sw-export: cold.nc: found no variable 'temperature', expected a model with it");
 }
 

@@ -59,7 +59,7 @@ TEST(ExtrudedFractures, AlongZGiveTheTracesOf2DInShortSteps) {
   fracture(both, {0.6, -0.8}, 0, 1e4);
   both.flat.recording.duration_s = both.deep.recording.duration_s = 0.12;
   EXPECT_GT(effect_of_slip(both.flat), 0.5);
-  EXPECT_GT(order_of_difference(both, 0.1), 0.9);
+  EXPECT_GT(order_of_difference(both, 0.05), 0.9);
 }
 
 /// Rock with a block of three systems of planes in it, none of them along an axis.

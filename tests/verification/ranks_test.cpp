@@ -327,7 +327,7 @@ TEST(Parts, AreRefusedWhereRowsAreTooFew) {
   } catch (const Error& error) {
     EXPECT_STREQ(
         error.what(),
-        "found 50 processes a shot for a model of 190 rows, expected at most 13: each takes 14 or more");
+        "found 50 processes a shot for a model of 190 rows, expected at most 7: each takes 24 or more");
   }
   scene.survey.sources[0].mechanism = PlaneWave<2>{};
   EXPECT_THROW(subdomain_for(scene, scene.model.grid(), 0, 2), Error);

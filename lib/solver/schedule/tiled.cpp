@@ -463,8 +463,9 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   worker.work.time() = {stage.time.step, stage.sweep};
-  // The first rows read beyond surfaces and interfaces before them, too.
-  for (auto step = std::max<std::int64_t>(0, needed.first - sweeps_.reach());
+  // The first rows read beyond surfaces and interfaces of those passed over before them, too; rows of steps
+  // before these have their corrections, and may have been advanced.
+  for (auto step = std::max<std::int64_t>({0, steps.first, needed.first - sweeps_.reach()});
        step < std::min(needed.first, needed.last); ++step)
     correct(step);
   if constexpr (D == 2) {

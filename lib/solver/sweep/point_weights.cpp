@@ -273,9 +273,11 @@ template <int D>
 static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& centre, const Point<D>& place,
                                        int field_row, bool fluid) {
   const auto near = extended_cells(domain, centre, field_row, fluid, Reach::to_strong_interfaces);
-  const bool enough = std::all_of(near.cells.begin(), near.cells.end(), [](const AxisCells& cells) {
-    return cells.high - cells.low + 1 >= widest_beyond;
-  });
+  // A model that is thinner has no more.
+  bool enough = true;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    enough &= near.cells[axis].high - near.cells[axis].low + 1 >=
+              std::min<std::int64_t>(widest_beyond, domain.grid.shape[axis]);
   auto usable = enough ? near : extended_cells(domain, centre, field_row, fluid);
   for (std::size_t axis = 0; axis < D; ++axis) {
     auto& cells = usable.cells[axis];
