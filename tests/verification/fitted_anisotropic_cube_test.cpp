@@ -142,8 +142,9 @@ TEST(FittedAnisotropyInSpace, ThatAttenuatesIsThatInTwoDimensions) {
   attenuate(both.flat), attenuate(both.deep);
   const double error = largest_error(both);
   if (show()) std::printf("attenuating slice: %g\n", error);
-  // Moduli without relaxation are single precision.
-  EXPECT_LT(error, 1e-5);
+  // Moduli without relaxation are single precision; points beside interfaces extrapolate from their own side,
+  // which multiplies what these round by up to 3.5.
+  EXPECT_LT(error, 2e-5);
   both.flat = elastic.flat;
   EXPECT_GT(largest_error(both), 0.1);
 }
