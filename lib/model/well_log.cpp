@@ -222,7 +222,7 @@ void check_ends(const Curves& curves, const Found& depth) {
   const auto& header = curves.headers[depth.column];
   for (const auto& [end, value] : curves.ends) {
     if (value == 0 || end.unit.empty() || header.unit.empty()) continue;
-    const auto said = in_place("~Well: " + end.name, [&] { return end.conversion("m"); });
+    const auto said = in_place("~Well: " + end.name, [&, &of = end] { return of.conversion("m"); });
     if (said(value) == depth.conversion(value)) continue;
     for (const auto& row : {curves.rows.front(), curves.rows.back()})
       if (row[depth.column] == value)
