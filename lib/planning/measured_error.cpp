@@ -117,7 +117,6 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   // Where none of the sizes is its own, of second order is the best guess there is.
   auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2, runs.model().tops_cut_cells() ? 1 : 2);
   measured.order = of_cells.order;
-  measured.nearest_apart = of_cells.apart;
   measured.by_cells = of_cells.error;
   measured.wrong = std::move(of_cells.wrong);
   measured.extrapolated = !what.itself;

@@ -22,7 +22,6 @@ struct MeasuredError {
   std::vector<double> others_m;  // the sizes that its own was compared with
   double order = 0;              // of the error in the size of cells, between 1 and 2
   GatherError error;             // of everything that was measured
-  double nearest_apart = 0;      // by how much traces in the nearest of the others differ
   double by_cells = 0;           // of that, what smaller cells cure
   double by_edges = 0;           // what wider edges change; NaN where there are none
   std::vector<Sensitivity> sensitivities;

@@ -51,8 +51,9 @@ class Search {
       // Errors of traces that have no wave right do not tell how they fall.
       const bool tells = measured.by_cells <= all_wrong;
       misled_ = !better || !tells;
+      note_time(measured.setting);
       if (tells) learn(measured);
-      widen_edges(measured);
+      widen_after(measured);
       all_run_.push_back(*setting);
       const double found = measured.error.whole;
       if (better) best_ = std::move(measured);
@@ -117,7 +118,7 @@ class Search {
       return with_possible_cells(*next);
     };
     const auto setting = cheapest();
-    return setting && widens_edges(*setting) ? cheapest() : setting;
+    return setting && widened_before_runs(*setting) ? cheapest() : setting;
   }
   /// The best scheme so far, in cells as much smaller as those that its error is measured in are larger; a
   /// size that was no better is passed by.
@@ -151,7 +152,7 @@ class Search {
   }
   /// Edges twice as wide as long as that changes much of what is wanted, in larger cells. True where they are
   /// wider now.
-  bool widens_edges(const AccuracySetting& setting) {
+  bool widened_before_runs(const AccuracySetting& setting) {
     if (runs_.scene().numerics.zone_cells > 0 || edges_seen_) return false;
     edges_seen_ = true;
     auto wide = other_sizes(runs_, setting).back();
@@ -167,7 +168,7 @@ class Search {
     return zone_ > 0;
   }
   /// The edges of the next setting, in smaller cells narrower, are twice as wide where that matters.
-  void widen_edges(const MeasuredError& measured) {
+  void widen_after(const MeasuredError& measured) {
     edges_alone_ = false;
     const bool matters = measured.by_edges > edge_share * wanted_;
     if (runs_.scene().numerics.zone_cells > 0 || !matters) return;
@@ -175,7 +176,6 @@ class Search {
     edges_alone_ = measured.by_cells <= aim * wanted_;
   }
   void learn(const MeasuredError& measured) {
-    note_time(measured.setting);
     // Traces that do not hang on the cells tell nothing of them.
     if (!(measured.by_cells > 0)) return;
     tried_.push_back({measured.setting, measured.by_cells});
