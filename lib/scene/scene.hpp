@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +56,7 @@ struct Recording {
   std::optional<Fibre> fibre{};  // of Component::das
   double before_s = 0;
   std::int64_t samples() const;
-  std::int64_t samples_before() const { return std::int64_t(before_s / interval_s + 0.5); }
+  std::int64_t samples_before() const { return std::llround(before_s / interval_s); }
 };
 
 /// Everything a run depends on.

@@ -93,7 +93,7 @@ double StackResponse<D>::reference_of(std::size_t layer, bool down) const {
 template <int D>
 std::vector<Complex> StackResponse<D>::solve(Complex omega) const {
   // Equations of a face hold the waves of both its layers.
-  BandSystem<4 * D> equations(waves_.size() - 1);
+  BandSystem<std::size_t(4 * D)> equations(waves_.size() - 1);
   const auto& first = stack_.column.layers.front();
   const double unit = first.rho * first.vp;
   std::size_t row = 0;

@@ -48,7 +48,7 @@ class SurfaceTractions {
   struct Term {
     std::int64_t offset;
     Real weight;
-    auto operator<=>(const Term& other) const = default;
+    auto operator<=>(const Term& other) const = default;  // NOLINT(modernize-use-nullptr): none is there
   };
   /// Of each pair its terms of stresses, of velocities, and of its bend.
   using Pattern = std::array<std::array<std::vector<Term>, 3>, std::size_t(D)>;
