@@ -17,7 +17,7 @@ void check(const SlipSystem<2>& system) {
   if (system.compliance.damped()) refuse("an effective medium has no dashpots, expected springs alone");
   if (std::abs(system.normal[0] * system.normal[1]) > 1e-9)
     refuse("planes dip by " + shown(dip_of_normal(system.normal), 4) +
-           " degrees, expected level or upright ones (0 or 90); planes that dip are springs");
+           " degrees to the axes of the rock, expected planes along or across them (0 or 90)");
 }
 
 }  // namespace

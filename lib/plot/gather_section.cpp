@@ -273,6 +273,10 @@ void apply_gain(GatherSection& section, double power) {
   for (std::size_t n = 0; n < gain.size(); ++n) {
     const double time = section.axis.start_s + double(n) * section.axis.interval_s;
     gain[n] = time > 0 ? float(std::pow(time, power)) : 0;
+    if (time > 0 && !std::isnormal(gain[n]))
+      throw Error("found --gain-power " + shown(power) + ", which gives no number in single precision at " +
+                      shown(time) + " s; expected a power nearer to 0",
+                  ErrorKind::usage);
   }
   for (std::size_t trace = 0; trace < section.traces(); ++trace) {
     float* samples = section.samples.data() + trace * gain.size();

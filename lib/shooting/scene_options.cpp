@@ -62,6 +62,13 @@ double begin_early(Survey<D>& survey, double interval_s) {
   return before_s;
 }
 
+/// What is said of all sources has an effect where one of them lacks it.
+void refuse_idle(bool idle, const std::string& option) {
+  if (idle)
+    throw Error("found " + option + " and a column of its own for every source, expected one of them",
+                ErrorKind::usage);
+}
+
 /// Sources without their positions, which the model's ground may decide.
 template <int D>
 Survey<D> make_survey(const SceneOptions& s) {
@@ -77,8 +84,13 @@ Survey<D> make_survey(const SceneOptions& s) {
     return std::any_of(shot.sources.begin(), shot.sources.end(),
                        [](const GivenSource& source) { return !source.wavelet.empty(); });
   });
+  bool default_wavelet = false, default_kind = false,
+       default_amplitude = false;  // whether a source needs them
   const auto source_of = [&](const GivenSource& source) {
     const bool own_wavelet = !source.wavelet.empty(), own_kind = !source.kind.empty();
+    default_wavelet = default_wavelet || !own_wavelet;
+    default_kind = default_kind || !own_kind;
+    default_amplitude = default_amplitude || !source.amplitude;
     const auto& kind =
         kinds.get(own_kind ? source.kind : s.kind, own_kind ? source.from : "--kind", parse_mechanism<D>);
     const double amplitude = source.amplitude.value_or(s.amplitude) * source.factor;
@@ -102,6 +114,10 @@ Survey<D> make_survey(const SceneOptions& s) {
       survey.blended[shot].push_back(source_of(given.shots[shot].sources[n]));
   for (auto& shot : given.shots)
     for (auto& source : shot.sources) source.recorded.reset();  // the sources have it now
+  const SceneOptions unset;
+  refuse_idle(s.wavelet != unset.wavelet && !default_wavelet, "--wavelet");
+  refuse_idle(s.kind != unset.kind && !default_kind, "--kind");
+  refuse_idle(s.amplitude != unset.amplitude && !default_amplitude, "--amplitude");
   if (!given.in_files) survey.misplaced = ErrorKind::usage;
   survey.spreads.emplace(std::move(given));
   return survey;
