@@ -58,7 +58,7 @@ echo text > text
 mkdir folder
 
 lines() { file=$1; shift; printf '%s\n' "$@" > "$file"; }
-lines own.csv x,z,kind,wavelet,amplitude 100,80,force-z,ricker:10,2 120,50,explosion,ricker:12,1
+lines own.csv x,z,kind,wavelet,amplitude 100,80,double-couple:30,ricker:10,2 120,50,explosion,ricker:12,1
 lines two.txt '0 0' '10 10 # no third'
 lines word.txt '0 0' '10 ten' '10 0'
 lines well.txt 'DEPTH.M VP.M/S' '20 3000' '22 3050' '24 2990'
