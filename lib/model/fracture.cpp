@@ -183,6 +183,34 @@ bool has_effect(const Model<D>& model, ModelEffect effect) {
 }
 
 template <int D>
+std::vector<std::string> leave_out_inert(Model<D>& model, double resolution) {
+  const auto inert = [&](SlipSystem<D> system, bool single, double lambda, double mu) {
+    if (single) system.compliance.spacing_m = model.grid().spacing_m;
+    const auto gives = compliance_in(system.compliance, lambda, mu);
+    return (!system.slides() || (system.strength_pa >= mu && !system.opens)) &&
+           (lambda + 2 * mu) * gives.normal < resolution && mu * gives.tangential < resolution;
+  };
+  const auto sets = model.fracture_sets.size();
+  std::vector<char> lost(sets, 0), left(sets, 0);
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    auto& code = model.fracture[cell];
+    if (code == 0) continue;
+    const auto& set = model.fracture_sets[code - 1u];
+    const auto rock = material_of(model.medium, cell);
+    const double mu = rock.rho * rock.vs * rock.vs, lambda = rock.rho * rock.vp * rock.vp - 2 * mu;
+    const bool gone = std::all_of(set.systems.begin(), set.systems.end(), [&](const auto& system) {
+      return inert(system, !set.traces.empty(), lambda, mu);
+    });
+    (gone ? lost : left)[code - 1u] = 1;
+    if (gone) code = 0;
+  }
+  std::vector<std::string> names;
+  for (std::size_t set = 0; set < sets; ++set)
+    if (lost[set] && !left[set]) names.push_back(model.fracture_sets[set].name);
+  return names;
+}
+
+template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect) {
   if (effect == ModelEffect::prestress) model.prestress_pa.clear();
   for (const auto property : properties_of(effect))
@@ -349,6 +377,8 @@ template void remove_effect(Model<2>&, ModelEffect);
 template void remove_effect(Model<3>&, ModelEffect);
 template bool has_effect(const Model<2>&, ModelEffect);
 template bool has_effect(const Model<3>&, ModelEffect);
+template std::vector<std::string> leave_out_inert(Model<2>&, double);
+template std::vector<std::string> leave_out_inert(Model<3>&, double);
 template std::vector<std::size_t> find_solid_cells<2>(const Model<2>&,
                                                       const std::function<bool(const Point<2>&)>&,
                                                       FractureCount&);

@@ -101,6 +101,12 @@ void remove_effect(Model<D>& model, ModelEffect effect);
 template <int D>
 bool has_effect(const Model<D>& model, ModelEffect effect);
 
+/// Leaves cells intact whose planes no wave moves in numbers of this resolution (the epsilon of their type):
+/// springs that strain by less than that of what the rock strains, and friction with a cohesion of at least
+/// mu, which a strain below 1 does not reach. Returns the names of the sets that lost all their cells.
+template <int D>
+std::vector<std::string> leave_out_inert(Model<D>& model, double resolution);
+
 /// How many cells a region of fractures took and did not take.
 struct FractureCount {
   std::int64_t marked = 0;  // solid cells, now of the new set

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -234,6 +235,12 @@ std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   try {
     auto warnings = set_attenuation(scene, choice);
     add_wavelet_warnings(warnings, scene);
+    const auto in_double = std::numeric_limits<double>::epsilon(),
+               in_single = double(std::numeric_limits<float>::epsilon());
+    for (const auto& name :
+         leave_out_inert(scene.model, scene.numerics.double_precision ? in_double : in_single))
+      warnings.push_back("the planes of " + name +
+                         " have no effect: no wave moves them by what numbers resolve");
     return warnings;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::usage) throw;

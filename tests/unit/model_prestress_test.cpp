@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/prestress.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "model/fracture.hpp"
 #include "model/resample.hpp"
@@ -143,4 +146,27 @@ TEST(ModelEffect, OfStaticStressAndOpeningCanBeTakenOut) {
   EXPECT_FALSE(model.fracture_sets[0].systems[0].opens);
   remove_effect(model, model_effect_named("prestress"));
   EXPECT_TRUE(model.prestress_pa.empty());
+}
+
+TEST(ModelEffect, OfPlanesThatNoWaveMovesIsLeftOut) {
+  const auto left_of = [](const SlipSystem<2>& system, double resolution = 1e-7) {
+    auto model = fractured(system);
+    const auto sets = leave_out_inert(model, resolution);
+    const bool any =
+        std::any_of(model.fracture.begin(), model.fracture.end(), [](auto code) { return code != 0; });
+    EXPECT_EQ(sets, any ? std::vector<std::string>{} : std::vector<std::string>{"planes"});
+    return any;
+  };
+  SlipSystem<2> springs{{half, -half}};
+  springs.law = FrictionLaw::none;
+  springs.compliance = {.tangential_m_per_pa = 1e-30, .spacing_m = 1};
+  EXPECT_FALSE(left_of(springs));
+  springs.compliance.tangential_m_per_pa = 1e-17;  // strains by 1e-8 to 1e-7 of what rock does
+  EXPECT_FALSE(left_of(springs));
+  EXPECT_TRUE(left_of(springs, 1e-16));
+  springs.compliance.tangential_m_per_pa = 1e-12;
+  EXPECT_TRUE(left_of(springs));
+  EXPECT_FALSE(left_of({{half, -half}, 0.1, 0, 1e12}));
+  EXPECT_TRUE(left_of({{half, -half}, 0.1, 0, 1e12, true})) << "planes that part";
+  EXPECT_TRUE(left_of({{half, -half}, 0.1, 0, 1e6}));
 }
