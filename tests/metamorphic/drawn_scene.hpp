@@ -34,11 +34,13 @@ class Draw {
 /// Seeds of a relation: a few in the short form, more where SLIPWAVE_LONG is set.
 std::vector<unsigned> seeds(unsigned in_short_form = 2, unsigned in_long_form = 20);
 
-/// A scene of cells of 1 m in double precision, Ricker wavelet of 100 Hz, all edges absorbing, vz and vx.
-Scene<2> scene_of(std::int64_t nx, std::int64_t nz, const Filling& filling, double duration_s = 0.06);
-/// One force or explosion, and receivers.
-void shoot_from(Scene<2>& scene, const Point<2>& source_m, const std::string& mechanism,
-                std::vector<Point<2>> receivers_m);
+/// A scene in double precision, Ricker wavelet of 100 Hz, all edges absorbing, vz and vx. Where cells are not
+/// of 1 m, all times are as many times as long as the cells are large.
+Scene<2> scene_of(std::int64_t nx, std::int64_t nz, const Filling& filling, double duration_s = 0.06,
+                  double spacing_m = 1);
+/// One force or explosion, and receivers, in cells from the origin.
+void shoot_from(Scene<2>& scene, const Point<2>& source, const std::string& mechanism,
+                std::vector<Point<2>> receivers);
 /// All traces of the shot, one after the other.
 std::vector<double> traces_of(const Scene<2>& scene);
 /// Relative L2 difference.

@@ -2,22 +2,32 @@
 // Scenes mirrored, moved, enlarged, and with shots added.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "drawn_scene.hpp"
+#include "model/fracture.hpp"
 
 namespace slipwave::solver {
 namespace {
 
 /// Water, two rocks and void with a wall of void, all drawn.
-Scene<2> drawn(unsigned seed, std::int64_t void_below = 0, std::int64_t water_beside = 0) {
+Scene<2> drawn(unsigned seed, std::int64_t void_below = 0, std::int64_t water_beside = 0,
+               double spacing_m = 1) {
   Draw draw(seed);
   const Rock upper = draw.rock(14), lower = draw.rock(25), water{1500, 0, 1000};
   const auto floor = draw.whole(8, 12), layer = draw.whole(24, 34), wall = draw.whole(60, 66);
-  auto scene = scene_of(80 + water_beside, 60 + void_below, [=](std::int64_t i, std::int64_t k) {
-    if (k >= 60) return nothing;
-    if (i >= 80) return water;
-    if (i >= wall && k >= floor && k < layer) return nothing;
-    return k < floor && i < 60 ? water : k < layer ? upper : lower;
-  });
+  auto scene = scene_of(
+      80 + water_beside, 60 + void_below,
+      [=](std::int64_t i, std::int64_t k) {
+        if (k >= 60) return nothing;
+        if (i >= 80) return water;
+        if (i >= wall && k >= floor && k < layer) return nothing;
+        return k < floor && i < 60 ? water : k < layer ? upper : lower;
+      },
+      0.06, spacing_m);
   scene.edges[1][0] = EdgeLaw::free;
   shoot_from(scene, {40.4, 20.7}, "force:0.3,1", {{30, double(floor)}, {50.2, 25.5}, {35, 4.5}});
   return scene;
@@ -56,6 +66,30 @@ TEST(Symmetry, VoidAndWaterFarAwayChangeNothing) {
     larger.recording.duration_s = 0.02;
     // The zone continues void.
     EXPECT_LT(difference(traces_of(larger), traces_of(closed)), rounding) << "seed " << seed;
+  }
+}
+
+TEST(Symmetry, EverythingEightTimesAsLargeAndSlowGivesTracesOfAnEighth) {
+  // In 2-D the velocity that a force gives falls with the lengths: v = F/(rho c L) f(x/L, c t/L).
+  for (const unsigned seed : seeds()) {
+    auto larger = traces_of(drawn(seed, 0, 0, 8));
+    for (auto& sample : larger) sample *= 8;
+    EXPECT_LT(difference(larger, traces_of(drawn(seed))), rounding) << "seed " << seed;
+  }
+}
+
+TEST(Symmetry, PlanesOfNoComplianceChangeNothing) {
+  for (const unsigned seed : seeds()) {
+    const auto scene = drawn(seed);
+    auto fractured = scene;
+    auto& model = fractured.model;
+    SlipSystem<2> springs{{std::sqrt(0.5), -std::sqrt(0.5)}};
+    springs.law = FrictionLaw::none;
+    springs.compliance = {.normal_m_per_pa = 1e-30, .tangential_m_per_pa = 1e-30, .spacing_m = 1};
+    add_fractures<2>(model, {"planes", {springs}}, [](const Point<2>& at) { return at[1] > 36; });
+    EXPECT_EQ(leave_out_inert(model, std::numeric_limits<double>::epsilon()),
+              std::vector<std::string>{"planes"});
+    EXPECT_TRUE(traces_of(fractured) == traces_of(scene)) << "seed " << seed;
   }
 }
 
