@@ -13,13 +13,15 @@
 namespace slipwave {
 namespace {
 
-// Of a height, in cells.
-constexpr double least_height = 0.2, least_height_of_weak = 0.5, largest_height = 1.6;
+// Of a height, in cells. A bed of one cell between solids has three rows.
+constexpr double least_height = 0.2, least_height_of_weak = 1. / 3, largest_height = 1.6;
 // Nearer than that to a face, in cells, a horizon lies on it.
 constexpr double on_face = 1e-6;
 // A smoothstep over n rows changes their heights by 1.5/n of the shift that it takes up.
 constexpr double steepest = 1.5, gentle = 0.15, firm = 0.25;
 constexpr std::int64_t least_fade = 4;
+// With fewer between two interfaces the reconstruction has a low order (docs/theory/interfaces.md).
+constexpr std::int64_t least_rows = 3;
 // Layers of fewer rows have them counted by thickness alone.
 constexpr std::int64_t thin_rows = 8;
 
@@ -171,7 +173,7 @@ std::string Rows<D>::count_rows(std::size_t k) {
   const auto fewest = std::int64_t(std::ceil(cells.largest / largest_height * (1 - 1e-9)));
   std::int64_t count = std::llround(cells.mean);
   if (count < thin_rows) {
-    count = std::max<std::int64_t>(count, cells.least >= 2 * least ? 2 : 1);
+    count = std::max<std::int64_t>(count, std::clamp<std::int64_t>(most, 1, least_rows));
   } else if (const auto aligned = std::llround(below.mean_m / h()) - above.row;
              aligned > 0 && std::abs(cells.mean / double(aligned) - 1) <= 0.1) {
     count = aligned;  // makes good what was rounded above
@@ -185,7 +187,7 @@ std::string Rows<D>::count_rows(std::size_t k) {
   }
   const auto apart = above.name + " and " + below.name + " are " + short_number(cells.least * h()) +
                      " m apart at " + place(cells.least_at);
-  const std::string thin = std::string("thinner than ") + (least == least_height ? "a fifth" : "half") +
+  const std::string thin = std::string("thinner than ") + (least == least_height ? "a fifth" : "a third") +
                            " of a cell of " + shown(h()) + " m";
   if (cells.largest <= largest_height * double(std::max<std::int64_t>(most, 1)))
     return apart + ", rows between them would be " + thin;

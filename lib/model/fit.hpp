@@ -53,11 +53,12 @@ std::vector<Point<D>> corner_columns(const Grid<D>& grid);
 /// below it W_k falls to 0 over as many rows as keep their heights between 0.85 and 1.15 of a cell, or 0.75
 /// and 1.25, so that rows farther away stay regular; where the next horizon or the bottom is too near for
 /// that, and between level horizons, rows of a column are of one height. A layer has as many rows as its mean
-/// thickness in cells says, two at least where it is 2/5 of a cell or more, and more where it would be
-/// thicker than 1.6 cells a row. What crosses others, leaves the model, or would have rows thinner than a
-/// fifth of a cell (half, where it is not strong) is left out and said, or is an Error where `choice.asked`
-/// and it is strong. Horizons on faces are followed with others, chosen or not: rows that bend would
-/// leave them. Where all lie on faces of the regular grid, that is kept, but for `choice.always`.
+/// thickness in cells says, more where it would be thicker than 1.6 cells a row, and three at least, or as
+/// many as may be that thin: between two interfaces fewer rows leave the reconstruction a low order. What
+/// crosses others, leaves the model, or would have rows thinner than a fifth of a cell (a third, where it is
+/// not strong) is left out and said, or is an Error where `choice.asked` and it is strong. Horizons on faces
+/// are followed with others, chosen or not: rows that bend would leave them. Where all lie on faces of the
+/// regular grid, that is kept, but for `choice.always`.
 template <int D>
 Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons, const FitChoice& choice);
 

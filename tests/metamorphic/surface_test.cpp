@@ -75,6 +75,28 @@ TEST(SameGround, ThatRowsFollowOffFacesGivesTheTracesOfTheEdge) {
   }
 }
 
+TEST(SameBed, OfOneOrTwoCellsGivesTheTracesOfSmallCells) {
+  for (const unsigned seed : seeds(1, 10)) {
+    Draw draw(seed);
+    const Rock upper = draw.rock(24), lower = draw.rock(30), bed = draw.rock(draw.between(11, 16));
+    // On faces of the small cells, in quarters of a large one.
+    const auto top = draw.whole(81, 83), bottom = top + draw.whole(4, 8);
+    const auto filling = [&](auto, std::int64_t k) { return k < top ? upper : k < bottom ? bed : lower; };
+    auto small = scene_of(400, 240, filling, 0.06 * 4, 0.25);
+    auto scene = scene_of(100, 60, [&](auto, auto) { return lower; });
+    const auto below = [](double depth_m, const Rock& rock) {
+      return Below{[=](double, double) { return depth_m; }, rock.vp, rock.vs, rock.rho};
+    };
+    scene.model.medium = fitted_medium<2>(
+        scene.model.grid(), {below(0, upper), below(double(top) / 4, bed), below(double(bottom) / 4, lower)});
+    shoot_from(scene, {30.3, 6.2}, "explosion", {{50, 8}, {65.4, 10}, {75, 35.3}});
+    small.recording = scene.recording;
+    small.survey = scene.survey;
+    small.numerics.zone_cells = 80;
+    EXPECT_LT(difference(traces_of(scene), traces_of(small)), 0.02) << "seed " << seed;
+  }
+}
+
 /// Rock below ground in steps up and down, with an overhang.
 Filling steps(Draw& draw, const Rock& rock) {
   std::vector<std::int64_t> tops;

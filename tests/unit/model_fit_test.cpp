@@ -109,7 +109,7 @@ TEST(Fit, GivesLevelLayersRowsOfOneHeight) {
       grid,
       {{0, 1500, 0, 1000}, {402, 2000, 900, 2000}, {411.7, 2500, 1200, 2100}, {613.2, 3000, 1500, 2200}},
       as_usual);
-  EXPECT_EQ(fit.rows, (std::vector<std::int64_t>{-1, 80, 82, 123}));
+  EXPECT_EQ(fit.rows, (std::vector<std::int64_t>{-1, 80, 83, 123}));
   EXPECT_EQ(fit.grid.shape[1], 200);
   const auto near = [&](std::int64_t first, std::int64_t last, double height) {
     const auto found = heights(fit.grid, first, last);
@@ -117,22 +117,31 @@ TEST(Fit, GivesLevelLayersRowsOfOneHeight) {
     EXPECT_NEAR(found[1], height, 1e-9);
   };
   near(0, 80, 402. / 400);
-  near(80, 82, 9.7 / 10);
-  near(82, 123, 201.5 / 205);
+  near(80, 83, 9.7 / 15);
+  near(83, 123, 201.5 / 200);
   EXPECT_EQ(corner(fit.grid, 2, 150), 750);
 }
 
-TEST(Fit, GivesThinBedsTwoRows) {
+TEST(Fit, GivesThinBedsThreeRowsOrAsManyAsMayBeThatThin) {
   const auto bed = fit_layers(grid_of(4, 200, 5),
                               {{0, 1500, 0, 1000}, {400, 3000, 1500, 2200}, {402, 1500, 0, 1000}}, as_usual);
   ASSERT_NE(bed.grid.rows, nullptr);
-  EXPECT_EQ(bed.rows[2] - bed.rows[1], 2);
+  EXPECT_EQ(bed.rows[2] - bed.rows[1], 2);  // of a fifth of a cell each; three would be thinner
   EXPECT_EQ(corner(bed.grid, 0, 80), 400);
   EXPECT_EQ(corner(bed.grid, 0, 81), 401);
   EXPECT_EQ(corner(bed.grid, 0, 200), 1000);
   const auto [least, largest] = heights(bed.grid, 82, 200);
   EXPECT_GE(least, 0.85);
   EXPECT_LE(largest, 1.15);
+}
+
+TEST(Fit, GivesBedsOfACellBetweenSolidsThreeRows) {
+  for (const auto& [thickness_m, rows] : {std::pair(9.7, 3), {5.1, 3}, {4.9, 2}, {3.2, 1}}) {
+    const auto bed = fit_layers(
+        grid_of(4, 200, 5),
+        {{0, 3000, 1500, 2200}, {401, 1800, 700, 1900}, {401 + thickness_m, 3500, 1900, 2300}}, as_usual);
+    EXPECT_EQ(bed.rows[2] - bed.rows[1], rows) << thickness_m;
+  }
 }
 
 TEST(Fit, FindsRoomNearTheBottom) {
