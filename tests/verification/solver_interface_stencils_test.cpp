@@ -53,8 +53,12 @@ TEST(InterfaceStencils, AreAllCellsWhoseStencilMeetsAnotherImpedance) {
     }
     for (const int axis : {0, 1})
       for (const int reach : {0, 1, 2, 3}) {
-        const InterfaceStencils ends(z, mirrors, axis, wave_p, reach,
-                                     RisesFrom<2>([](auto&&...) { return false; }), SlotBeside<2>());
+        const InterfaceStencils ends(StencilSearch<2>{.impedances = {&z},
+                                                      .waves = {wave_p},
+                                                      .edges = mirrors,
+                                                      .axis = axis,
+                                                      .reach = reach,
+                                                      .rises_from = [](auto&&...) { return false; }});
         EXPECT_EQ(ends.size(), counted(z, axis, reach))
             << shape[0] << " x " << shape[1] << " cells, axis " << axis << ", reach " << reach;
       }

@@ -27,15 +27,6 @@ void weighted_sum(std::int64_t n, const Real (*weights)[cells_at_once], const Re
 
 }  // namespace
 
-IndexRange CellList::in(std::int64_t line, const IndexRange& columns) const {
-  if (line < 0) return {};
-  const auto begin = cells.begin(), from = begin + first[std::size_t(line)],
-             to = begin + first[std::size_t(line) + 1];
-  const auto before = [](const Cell& one, std::int64_t x) { return one.x < x; };
-  return {std::lower_bound(from, to, columns.first, before) - begin,
-          std::lower_bound(from, to, columns.last, before) - begin};
-}
-
 std::int64_t CellList::end_of_run(std::int64_t begin, std::int64_t end) const {
   auto n = begin + 1;
   while (n < end && (*this)[n].x - (*this)[begin].x == n - begin) ++n;
@@ -100,7 +91,7 @@ void AnisotropicCells<D, Real>::add_endings(const Domain<D>& domain, int axis,
     for (std::size_t pair = 0; pair < D; ++pair) {
       const auto* const found = stencils[pair].find(line, x);
       ends = ends || found;
-      ending.stencils[pair] = found ? *found : whole_stencil(x, reach_);
+      ending.stencils[pair] = found ? *found : whole_stencil<InterfaceStencil>(x, reach_, reach_);
       ending.reach = std::min(ending.reach, int(ending.stencils[pair].reach));
     }
     if (ends) endings_[std::size_t(axis)].push_back(ending);
@@ -226,10 +217,12 @@ void AnisotropicCells<D, Real>::reconstruct_ending(int axis, const Ending& endin
                                                    OutgoingWaves<Real> outgoing) const {
   constexpr int reach = reach_of(Order), count = 2 * reach + 1;
   const auto& of = media_[std::size_t(list_[ending.cell].medium)][std::size_t(axis)];
-  Real v[D][count], s[D][count];
+  MotionAt<Real> all[D][count];
   for (std::size_t p = 0; p < D; ++p)
-    extended_pair(ending.stencils[p], reach, stride, pairs[p].v + at, pairs[p].s + at, pairs[p].corrections,
-                  scale, v[p], s[p], metric ? metric->half_x + at : nullptr, metric ? metric->stride : 0);
+    extended_pair<Real>(ending.stencils[p], reach,
+                        {pairs[p].v + at, pairs[p].s + at, stride, pairs[p].corrections, scale,
+                         metric ? metric->half_x + at : nullptr, metric ? metric->stride : 0},
+                        all[p]);
   const Real sign = scale < 0 ? -1 : 1;
   const Real j_lo = metric ? 2 * metric->half_lo[at] : 1, j_hi = metric ? 2 * metric->half_hi[at] : 1;
   std::array<Real, std::size_t(D)> up{}, down{};
@@ -238,7 +231,8 @@ void AnisotropicCells<D, Real>::reconstruct_ending(int axis, const Ending& endin
     const Real z = of.waves[wave], courant = sign * scale * z * b;
     Real v_of[count] = {}, s_of[count] = {}, of_up = 0, of_down = 0, other = 0;
     for (int k = 0; k < count; ++k)
-      for (std::size_t p = 0; p < D; ++p) v_of[k] += motion[p] * v[p][k], s_of[k] += motion[p] * s[p][k];
+      for (std::size_t p = 0; p < D; ++p)
+        v_of[k] += motion[p] * all[p][k].v, s_of[k] += motion[p] * all[p][k].t;
     reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * j_hi, courant, of_up, other);
     reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * j_lo, courant, other, of_down);
     for (std::size_t p = 0; p < D; ++p) up[p] += motion[p] * of_up, down[p] += motion[p] * of_down;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "solver/kernels/kernels.hpp"
@@ -14,22 +15,14 @@
 
 namespace slipwave::solver {
 
-/// Cells by line, then x, and their media.
-struct CellList {
-  struct Cell {
-    std::int32_t x, medium;
-  };
-  std::vector<Cell> cells;
-  std::vector<std::int64_t> first = {0};  // of each line, and the end
-
-  bool empty() const { return cells.empty(); }
-  const Cell& operator[](std::int64_t n) const { return cells[std::size_t(n)]; }
-  void end_line() { first.push_back(std::int64_t(cells.size())); }
-  /// Numbers of the cells of a line in these columns; none of a line below 0, which is beyond the grid.
-  IndexRange in(std::int64_t line, const IndexRange& columns) const;
+/// A cell and its medium.
+struct CellOfMedium {
+  std::int32_t x, medium;
+};
+/// Cells and their media.
+struct CellList : ByLine<CellOfMedium> {
   /// The first number behind cells that follow each other from `begin` on, at most `end`.
   std::int64_t end_of_run(std::int64_t begin, std::int64_t end) const;
-  std::int64_t memory_bytes() const { return bytes_of(cells) + bytes_of(first); }
 };
 /// Calls what(columns) for runs of at most `most` faces beside cells of the list: `lo` and `hi` are the lines
 /// before and behind the faces, the cell before a face stands `shift` columns before that behind it.
@@ -181,6 +174,8 @@ class AnisotropicCellsAcross {
   void reconstruct(std::int64_t line, const IndexRange& columns, const Kernels<Real>& kernels,
                    const BentFields<const Real>& fields, const BentAcross<Real>& metric, const Real* b,
                    Real scale, OutgoingWaves<Real> outgoing) const;
+  /// The waves of a cell; none of one that is not anisotropic.
+  std::optional<RowWaves<D, Real>> waves_of(std::int64_t line, std::int64_t x) const;
   /// States of the faces between two lines, -1 beyond the grid; `fluid`: the cells above them see velocities
   /// of their own.
   void solve(std::int64_t lo, std::int64_t hi, const IndexRange& columns, const BentSolve<Real>& at,

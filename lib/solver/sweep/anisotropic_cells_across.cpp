@@ -93,6 +93,26 @@ auto AnisotropicCellsAcross<D, Real>::rows_of(std::int64_t line, std::int64_t ce
 }
 
 template <int D, class Real>
+std::optional<RowWaves<D, Real>> AnisotropicCellsAcross<D, Real>::waves_of(std::int64_t line,
+                                                                           std::int64_t x) const {
+  if (empty()) return {};
+  const auto* const cell = list_.find(line, x);
+  if (!cell) return {};
+  const auto rows = rows_of(line, cell - list_.cells.data());
+  RowWaves<D, Real> waves;
+  const Real* value = rows.first;
+  const auto get = [&](auto& all) {
+    for (auto& of : all) of = *value, value += rows.pitch;
+  };
+  for (auto& face : waves.faces) {
+    get(face.z);
+    for (auto& motion : face.motions) get(motion);
+  }
+  get(waves.courant_z);
+  return waves;
+}
+
+template <int D, class Real>
 void AnisotropicCellsAcross<D, Real>::find_weights(const Rows& rows, std::int64_t n, Real sign,
                                                    Weights& weights) {
   for (std::size_t wave = 0; wave < D; ++wave) {

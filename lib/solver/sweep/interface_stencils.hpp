@@ -7,11 +7,11 @@
 #include <functional>
 #include <vector>
 
-#include "base/memory.hpp"
 #include "grid/field.hpp"
 #include "model/coefficients.hpp"
 #include "scene/edges.hpp"
 #include "solver/kernels/kernels.hpp"
+#include "solver/sweep/by_line.hpp"
 
 namespace slipwave::solver {
 
@@ -21,7 +21,7 @@ enum class Extension : std::uint8_t {
   traction_free,  // v even, s odd (antisymmetric)
   motionless,     // v odd (antisymmetric), s even
   constant,       // the last value stays
-  parted,         // as the two sides of a fracture along the face have it
+  split,          // as the two sides of a fracture along the face have it
   interface,      // as the two sides of a welded interface couple them
 };
 
@@ -60,33 +60,42 @@ constexpr int reach_up_to(int cells, int beyond, int reach) {
 constexpr double contrast_ratio = 1.2;
 /// The same of impedances as matrices, where axes are tilted.
 constexpr double tilted_contrast_ratio = 1.05;
-/// Cells the reconstruction may reach where a stencil ends at so many strong interfaces, the nearest after
-/// `nearest` cells, `others` cells beside its own lie between its ends, and `ends`: it ends on both sides.
-/// Between two strong interfaces w cells allow order 2w - 1 and no more, and so does a single cell between a
-/// strong interface and another end: with more, random media of single cells and a crust of one cell grew at
-/// order 5 and 7 (docs/theory.md).
-int reach_within(int interfaces, int nearest, bool ends, int others, int reach);
 
+constexpr std::int8_t not_carried = -1;
+constexpr std::int32_t no_slot = -1;
+/// The slot that stands for a number of FreeSurface, and back.
+constexpr std::int32_t of_void(std::int64_t number) { return std::int32_t(-2 - number); }
+
+/// One side of a stencil that serves so many waves: where it ends, and how the fields are extended beyond.
+template <std::size_t Waves, class Weld>
+struct StencilSide {
+  std::int8_t cells = 0;   // up to the interface or edge, or the reach
+  std::int8_t beyond = 0;  // interface: cells beyond it that may be read
+  std::array<Extension, Waves> laws{};
+  /// At an interface R of (F13): of a pair Z of the other side over the sum of both, of vectors the place of
+  /// the matrix.
+  Weld weld{};
+  std::int32_t slot = no_slot;  // of InterfaceCorrections or SplitFaces, or of_void()
+
+  Extension law() const { return laws[0]; }
+};
 /// The stencil of a cell that would reach across a strong interface or into cells that do not carry the wave:
 /// beyond that the fields are extended by the law (theory.md (E10), (E11)). Or a cell that does not carry the
 /// wave beside one that does: it has no outgoing waves.
-struct InterfaceStencil {
-  std::int32_t x;         // the cell's column
-  std::int8_t low, high;  // cells before and behind it up to the interface or edge, or the reach
-  Extension low_law, high_law;
-  std::int8_t beyond_low, beyond_high;  // interface: cells beyond it that may be read
-  float share_low, share_high;          // interface: Z of the other side over the sum of both
+template <class Side>
+struct Stencil {
+  std::int32_t x;     // the cell's column
   std::int8_t reach;  // of the reconstruction used here, not_carried where the wave is not carried
-  std::int32_t slot_low = -1, slot_high = -1;  // of InterfaceCorrections, -1: none, less: of_void()
+  Side low{}, high{};
 };
-/// The slot that stands for a number of FreeSurface, and back.
-constexpr std::int32_t of_void(std::int64_t number) { return std::int32_t(-2 - number); }
-constexpr std::int8_t not_carried = -1;
-/// One of which no end is within reach.
-constexpr InterfaceStencil whole_stencil(std::int32_t x, int reach) {
-  constexpr auto on = Extension::none;
-  const auto cells = std::int8_t(reach);
-  return {x, cells, cells, on, on, 0, 0, 0, 0, cells};
+/// The stencil of one pair.
+using InterfaceStencil = Stencil<StencilSide<1, float>>;
+/// A stencil of which no end is within reach.
+template <class Of>
+Of whole_stencil(std::int64_t x, int within, int reach) {
+  Of whole{std::int32_t(x), std::int8_t(within)};
+  whole.low.cells = whole.high.cells = std::int8_t(reach);
+  return whole;
 }
 
 /// Whether the reach of stencils in line with a cell rises away from the edge on this side (0 low, 1 high),
@@ -98,7 +107,7 @@ using RisesFrom = std::function<bool(const Index<D>& at, int side)>;
 /// of_void(), or -1.
 template <int D>
 using SlotBeside = std::function<std::int32_t(const Index<D>& at, int side)>;
-/// The extension of one side of a parted face (theory.md (S36)): what its mirror image gains, v over 2 j + 1,
+/// The extension of one side of a split face (theory.md (S36)): what its mirror image gains, v over 2 j + 1,
 /// s at the beginning of a sweep and besides in one over a whole step; and how stiff the fracture is for
 /// waves of half a cell. The other side is the slot that differs in the last bit.
 template <class Real>
@@ -111,7 +120,7 @@ struct SplitImage {
 template <class Real>
 struct PairCorrections {
   const Real *v, *s;
-  const SplitImage<Real>* parted = nullptr;
+  const SplitImage<Real>* split = nullptr;
   /// By number of FreeSurface, of the low and the high side of cells: of v over 2 j + 1, of s, and what v
   /// gains besides, null but in whole sweeps.
   struct BesideVoid {
@@ -120,15 +129,30 @@ struct PairCorrections {
   std::array<BesideVoid, 2> beside_void{};
 };
 
-/// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
-/// stencil says ((E10), (E11)); `v` and `s` point at the cell, and so does `half_j` (BentAlong) of a bent
-/// row, where the pair is (v, J s).
+/// The pair (v, s) of cells in a line; pointers begin with a cell.
 template <class Real>
-void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stride, const Real* v,
-                   const Real* s, const PairCorrections<Real>& corrections, Real scale, Real* v_at,
-                   Real* s_at, const Real* half_j = nullptr, std::int64_t j_stride = 0);
+struct PairOfLine {
+  const Real *v, *s;
+  std::int64_t stride;
+  const PairCorrections<Real>& corrections;
+  Real scale;
+  /// Half of J of the faces (BentAlong) of a curvilinear row, where the pair is (v, J s); null in level ones.
+  const Real* half_j = nullptr;
+  std::int64_t j_stride = 0;
+};
+/// What a stencil reads of one place: velocity and traction, of a pair or as vectors.
+template <class Value>
+struct MotionAt {
+  Value v, t;
+};
+/// The motion of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
+/// stencil says ((E10), (E11)).
+template <class Real>
+void extended_pair(const InterfaceStencil& stencil, int reach, const PairOfLine<Real>& pair,
+                   MotionAt<Real>* at);
 
-/// Whether of these neighbours, both solid, one is a tilted mean (TiltedCells); empty: none is anywhere.
+/// Whether of these neighbours, both solid, one is an equivalent TTI cell (AnisotropicCells); empty: none is
+/// anywhere.
 template <int D>
 using TiltedFace = std::function<bool(const Index<D>& at, const Index<D>& beside)>;
 
@@ -150,12 +174,12 @@ struct TiltedFaces {
   TiltedContrasts<D> contrasts{};
 };
 
-/// Faces of one axis where fractures part the rock: cells within reach of them, ascending; and the slot of
-/// the side (0 before, 1 behind) of the face before a cell, or -1.
+/// Faces of one axis that fractures split: cells within reach of them, ascending; and the place of the face
+/// before a cell in the list of split faces, or -1.
 template <int D>
-struct PartedLine {
+struct SplitLine {
   std::vector<std::int64_t> near{};
-  std::function<std::int32_t(const Index<D>& behind)> slot{};
+  std::function<std::int32_t(const Index<D>& behind)> place{};
 };
 
 /// Cells whose reconstruction along one axis is bounded by something besides interfaces and contrasts in line
@@ -168,48 +192,54 @@ struct ReachBounds {
   int at(std::int64_t cell, int reach) const;
 };
 
+/// What the stencils of the waves of an axis end at and reach.
+template <int D, std::size_t Waves = 1>
+struct StencilSearch {
+  std::array<const Field<D>*, Waves> impedances;  // on the computed grid, 0 where a wave is not carried
+  std::array<Wave, Waves> waves;
+  const EdgeLaws<D>& edges;
+  int axis;
+  int reach;  // cells the reconstruction reaches to each side
+  RisesFrom<D> rises_from;
+  SlotBeside<D> slot_beside{};
+  /// Stencils do not end at faces of equivalent TTI cells, which divide what would be a strong interface.
+  TiltedFaces<D> tilted{};
+  SplitLine<D> split{};
+  ReachBounds bounds{};
+};
+
 /// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
 /// these are corrected.
 class InterfaceStencils {
  public:
   InterfaceStencils() = default;
-  /// `impedance` of the wave on the computed grid, 0 where it is not carried; laws of
-  /// the grid's edges; cells the reconstruction reaches to each side. Stencils do not end at faces of
-  /// tilted means, which part what would be a strong interface in two.
   template <int D>
-  InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                    const RisesFrom<D>& rises_from, const SlotBeside<D>& slot_beside,
-                    const TiltedFaces<D>& tilted = {}, const PartedLine<D>& parted = {},
-                    const ReachBounds& bounds = {});
+  explicit InterfaceStencils(const StencilSearch<D>& of);
   /// That of a cell, null where the bulk kernel serves.
-  const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
+  const InterfaceStencil* find(std::int64_t line, std::int64_t x) const { return list_.find(line, x); }
 
-  std::size_t size() const { return cells_.size(); }
-  std::int64_t memory_bytes() const { return bytes_of(cells_) + bytes_of(starts_); }
+  std::size_t size() const { return list_.cells.size(); }
+  std::int64_t memory_bytes() const { return list_.memory_bytes(); }
   /// Whether it would correct anything of these columns.
   bool any(std::int64_t line, const IndexRange& columns) const {
-    return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && any_of_line(line, columns);
+    return !list_.empty(line) && !list_.in(line, columns).empty();
   }
   /// Overwrites up and down for the listed cells of these columns of a row. All pointers begin with the
-  /// first. `metric`: of a bent row, the pair is then (v, J s).
+  /// first. `metric`: of a curvilinear row.
   template <class Real>
-  void correct(int order, std::int64_t line, const IndexRange& columns, std::int64_t stride, const Real* v,
-               const Real* s, const MaterialRows<Real>& material, Real scale, Real* up, Real* down,
-               const PairCorrections<Real>& corrections, const BentAlong<Real>* metric = nullptr) const {
-    if (starts_[std::size_t(line)] < starts_[std::size_t(line) + 1])
-      correct_line(order, line, columns, stride, v, s, material, scale, up, down, corrections, metric);
+  void correct(int order, std::int64_t line, const IndexRange& columns, const PairOfLine<Real>& pair,
+               const MaterialRows<Real>& material, Real* up, Real* down,
+               const BentAlong<Real>* metric = nullptr) const {
+    if (!list_.empty(line)) correct_line(order, line, columns, pair, material, up, down, metric);
   }
 
  private:
-  bool any_of_line(std::int64_t line, const IndexRange& columns) const;
   template <class Real>
-  void correct_line(int order, std::int64_t line, const IndexRange& columns, std::int64_t stride,
-                    const Real* v, const Real* s, const MaterialRows<Real>& material, Real scale, Real* up,
-                    Real* down, const PairCorrections<Real>& corrections,
+  void correct_line(int order, std::int64_t line, const IndexRange& columns, const PairOfLine<Real>& pair,
+                    const MaterialRows<Real>& material, Real* up, Real* down,
                     const BentAlong<Real>* metric) const;
   Wave wave_ = wave_p;
-  std::vector<InterfaceStencil> cells_;  // by line, then x
-  std::vector<std::int64_t> starts_;     // of each line in cells_, and the end
+  ByLine<InterfaceStencil> list_;
 };
 
 }  // namespace slipwave::solver

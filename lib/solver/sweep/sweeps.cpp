@@ -62,10 +62,10 @@ void add_cells_along(const Grid<D>& grid, Index<D> at, int axis, std::int64_t fi
   for (place = from; place <= to; ++place) cells.push_back(grid.flat(at));
 }
 
-/// Faces that fractures part for a pair of sweeps along an axis.
+/// Faces that fractures split for a pair of sweeps along an axis.
 template <int D>
-PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reach) {
-  PartedLine<D> line;
+SplitLine<D> split_along(const Domain<D>& domain, int axis, int pair, int reach) {
+  SplitLine<D> line;
   std::vector<std::pair<std::int64_t, std::int32_t>> faces;  // cell behind, place in the domain's list
   for (std::size_t n = 0; n < domain.parted.size(); ++n) {
     const auto& face = domain.parted[n];
@@ -75,7 +75,7 @@ PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reac
   }
   if (faces.empty()) return line;
   std::sort(line.near.begin(), line.near.end());
-  line.slot = [faces = std::move(faces), grid = domain.grid](const Index<D>& behind) {
+  line.place = [faces = std::move(faces), grid = domain.grid](const Index<D>& behind) {
     const std::pair<std::int64_t, std::int32_t> wanted{grid.flat(behind), 0};
     const auto found = std::lower_bound(faces.begin(), faces.end(), wanted);
     return found != faces.end() && found->first == wanted.first ? found->second : -1;
@@ -126,7 +126,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       couples_all_(domain.changes_shear_across()),
       metric_(domain),
       corrections_(state, domain, metric_),
-      bent_stencils_(domain, reach_, corrections_, metric_) {
+      curvilinear_stencils_(domain, reach_, corrections_, metric_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -136,6 +136,14 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       if (reach_ > 0 && shear_)
         beside_void_[axis][side] = FreeSurface<D, Real>::beside_void(state.layout, domain, axis, side);
   }
+  find_stencils(domain);
+  anisotropic_cells_ = Cells(domain, reach_, stencils_);
+  anisotropic_across_ = AnisotropicCellsAcross<D, Real>(domain, metric_, reach_);
+  find_plain_lines();
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::find_stencils(const Domain<D>& domain) {
   std::array<TiltedFaces<D>, std::size_t(D)> tilted;
   for (int axis = 0; axis < D && !domain.anisotropic_cells().empty(); ++axis) {
     tilted[std::size_t(axis)].contrasts = tilted_contrasts(domain, axis, reach_);
@@ -162,14 +170,19 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       const RisesFrom<D> rises_from = [&domain, axis](const Index<D>& at, int side) {
         return order_rises_from(domain, at, axis, side);
       };
-      stencils_[std::size_t(axis)][std::size_t(pair)] = InterfaceStencils(
-          domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from, slot_beside,
-          tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_), bounds[std::size_t(axis)]);
+      stencils_[std::size_t(axis)][std::size_t(pair)] =
+          InterfaceStencils(StencilSearch<D>{.impedances = {&domain.impedance_of_pair(axis, pair)},
+                                             .waves = {wave},
+                                             .edges = edges_,
+                                             .axis = axis,
+                                             .reach = reach_,
+                                             .rises_from = rises_from,
+                                             .slot_beside = slot_beside,
+                                             .tilted = tilted[std::size_t(axis)],
+                                             .split = split_along(domain, axis, pair, reach_),
+                                             .bounds = bounds[std::size_t(axis)]});
     }
   });
-  anisotropic_cells_ = Cells(domain, reach_, stencils_);
-  anisotropic_across_ = AnisotropicCellsAcross<D, Real>(domain, metric_, reach_);
-  find_plain_lines();
 }
 
 template <int D, class Real>
@@ -222,14 +235,15 @@ std::int64_t Sweeps<D, Real>::interface_stencil_cells() const {
   std::size_t cells = 0;
   for (const auto& axis : stencils_)
     for (const auto& wave : axis) cells += wave.size();
-  return std::int64_t(cells + bent_stencils_.size());
+  return std::int64_t(cells + curvilinear_stencils_.size());
 }
 
 template <int D, class Real>
 std::int64_t Sweeps<D, Real>::memory_bytes() const {
-  std::int64_t bytes = bent_stencils_.memory_bytes() + metric_.memory_bytes() + corrections_.memory_bytes() +
-                       anisotropic_cells_.memory_bytes() + anisotropic_across_.memory_bytes() +
-                       bytes_of(plain_lines_) + (split_ ? split_->memory_bytes() : 0);
+  std::int64_t bytes = curvilinear_stencils_.memory_bytes() + metric_.memory_bytes() +
+                       corrections_.memory_bytes() + anisotropic_cells_.memory_bytes() +
+                       anisotropic_across_.memory_bytes() + bytes_of(plain_lines_) +
+                       (split_ ? split_->memory_bytes() : 0);
   for (const auto& of_axis : stencils_)
     for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
   for (const auto* surfaces : {&free_surfaces_, &beside_void_})
@@ -306,8 +320,9 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     reconstruct(p, {whole.last, columns.last}, up, down);
     auto of_pair = material;
     if (p > 0) of_pair.zs = impedance_of(p, material);
-    stencils_of(axis, p).correct(order_, number, columns, stride, v, s, of_pair, scale, up, down,
-                                 corrections_of(axis, p, whole_step));
+    stencils_of(axis, p).correct(order_, number, columns,
+                                 PairOfLine<Real>{v, s, stride, corrections_of(axis, p, whole_step), scale},
+                                 of_pair, up, down);
     // After the stencils beside interfaces: their waves keep to the criterion, too.
     if (monotone_)
       kernels_[false]->limit(columns.count(), stride, v, s, state_.material_layout.stride(axis),
@@ -348,7 +363,8 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
     anisotropic_across_.reconstruct(number, columns, *kernels_[false], all, metric, material.b, scale,
                                     outgoing);
-    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
+    curvilinear_stencils_.correct(order_, number, columns, {all, metric, material, scale}, corrections_,
+                                  anisotropic_across_, outgoing);
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
@@ -359,9 +375,10 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
   }
   bent_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
   for (int p = 0; p < D; ++p)
-    stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
-                                 outgoing.up(p), outgoing.down(p), corrections_of(axis, p, scale == 1),
-                                 &metric);
+    stencils_of(axis, p).correct(
+        order_, number, columns,
+        PairOfLine<Real>{pairs.v[p], pairs.s[p], stride, corrections_of(axis, p, scale == 1), scale},
+        material, outgoing.up(p), outgoing.down(p), &metric);
   if (!anisotropic_cells_.empty())
     anisotropic_cells_.reconstruct(axis, number, columns, *kernels_[false], stride,
                                    pairs_from(axis, fields + columns.first, pitch, scale == 1), material.b,

@@ -7,7 +7,7 @@
 
 #include "scene/edges.hpp"
 #include "solver/sweep/anisotropic_cells.hpp"
-#include "solver/sweep/bent_stencils.hpp"
+#include "solver/sweep/curvilinear_stencils.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_corrections.hpp"
@@ -190,6 +190,7 @@ class Sweeps {
   bool fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const;
   FusedRow<Real> fused(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
                        Ring<Real>& ring);
+  void find_stencils(const Domain<D>& domain);
   void find_plain_lines();
   /// Columns of a row, and those of its padding where they are its last.
   IndexRange with_padding(const IndexRange& columns) const {
@@ -263,7 +264,7 @@ class Sweeps {
     }
     return of;
   }
-  BentStencils<D, Real> bent_stencils_;
+  CurvilinearStencils<D, Real> curvilinear_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
