@@ -375,9 +375,13 @@ std::int64_t FreeSurface<D, Real>::corrected(const Index<D>& at) const {
 
 template <int D, class Real>
 IndexRange FreeSurface<D, Real>::numbers(const IndexRange& lines, const IndexRange& columns) const {
+  if (!inside_ && axis_ == 0) return lines;
   const auto at = [&](std::int64_t line, std::int64_t x) {
-    const auto key = line * padded_nx_ + std::clamp<std::int64_t>(x, 0, padded_nx_);
-    return std::lower_bound(keys_.begin(), keys_.end(), key) - keys_.begin();
+    const auto column = std::clamp<std::int64_t>(x, 0, padded_nx_);
+    // In 3-D an edge has a line of each row along y or along z.
+    if (!inside_ && D == 3) line = axis_ == 1 ? line / shape_[1] : line % shape_[1];
+    if (!inside_) return (D == 2 ? 0 : line) * padded_nx_ + column;
+    return std::lower_bound(keys_.begin(), keys_.end(), line * padded_nx_ + column) - keys_.begin();
   };
   return {at(lines.first, columns.first), at(lines.last - 1, columns.last)};
 }
@@ -391,6 +395,7 @@ std::int64_t FreeSurface<D, Real>::place_of(const Layout<D>& layout, const Index
 
 template <int D, class Real>
 void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line, const IndexRange& columns) {
+  if (empty()) return;
   const auto copy = [&](std::int64_t number, std::int64_t place, std::int64_t cells) {
     Real* retained = retained_.data() + number * retained_cells_ * retained_rows_;
     const Real* const from = state.fields.data() + place;
@@ -406,13 +411,16 @@ void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line
     return;
   }
   auto at = state.layout.line_index(line);
-  if (axis_ == 0 && side_) at[0] = shape_[0] - 1;
+  const auto edge = side_ ? shape_[std::size_t(axis_)] - 1 : 0;
+  if (axis_ == 0 ? edge < columns.first || edge >= columns.last : at[std::size_t(axis_)] != edge) return;
+  at[std::size_t(axis_)] = edge;
   copy(number(at), state.layout.cell(at), axis_ > 0 ? shape_[0] : 1);
 }
 
 template <int D, class Real>
-void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, std::int64_t first,
-                                              std::int64_t last) {
+void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, const IndexRange& numbers) {
+  if (empty()) return;
+  const auto& [first, last] = numbers;
   const Real* const fields = axis_ < D - 1 ? retained_.data() : state.fields.data();
   const Real* const material = state.material.data();
   auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,

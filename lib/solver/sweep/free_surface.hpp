@@ -61,13 +61,17 @@ class FreeSurface {
            bytes_of(retained_) + bytes_of(keys_) + bytes_of(places_) + bytes_of(corrected_) +
            bytes_of(velocity_corrections_) + bytes_of(traction_corrections_) + tractions_.memory_bytes();
   }
-  /// Copies the fields of the surface's cells on this row as they are now, across another axis than the last:
-  /// update_corrections() reads the copy, since sweeps change row after row. Beside void those in these
-  /// columns.
-  void retain(const State<D, Real>& state, std::int64_t line, const IndexRange& columns = {});
-  /// Computes all below at cells first <= number < last for the following sweep across, from the fields or
-  /// the copy, up to free_surface_reach cells beyond.
-  void update_corrections(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+  int side() const { return side_; }
+  /// Whether it is not an edge of the grid.
+  bool inside() const { return inside_; }
+  /// Columns from what lies beyond the surface to its cells.
+  int along_x() const { return axis_ > 0 ? 0 : outward_; }
+  /// Copies the fields of the surface's cells on this row in these columns as they are now, across another
+  /// axis than the last: update_corrections() reads the copy, since sweeps change row after row.
+  void retain(const State<D, Real>& state, std::int64_t line, const IndexRange& columns);
+  /// Computes all below at cells of these numbers for the following sweep across, from the fields or the
+  /// copy, up to free_surface_reach cells beyond.
+  void update_corrections(const State<D, Real>& state, const IndexRange& numbers);
   /// Of a pair of the sweep across (0 P, then S by axes), by number: the correction of v over 2 j + 1, and
   /// that of s in a sweep over a whole step.
   const Real* velocity_correction(int pair) const { return velocity_corrections_[std::size_t(pair)].data(); }
@@ -77,10 +81,14 @@ class FreeSurface {
   std::int64_t number(const Index<D>& at) const;
   /// Beside void: the number of a cell, or -1 where nothing is corrected.
   std::int64_t corrected(const Index<D>& at) const;
-  /// Beside void: the numbers of the cells in these columns of lines that follow each other.
+  /// The numbers of the cells in these columns of lines that follow each other, at an edge of its lines; at
+  /// an edge of x whatever the columns.
   IndexRange numbers(const IndexRange& lines, const IndexRange& columns) const;
-  /// Beside void: the column of a cell.
-  std::int64_t column(std::int64_t number) const { return keys_[std::size_t(number)] % padded_nx_; }
+  /// The column of a cell.
+  std::int64_t column(std::int64_t number) const {
+    if (inside_) return keys_[std::size_t(number)] % padded_nx_;
+    return axis_ > 0 ? number % padded_nx_ : side_ ? shape_[0] - 1 : 0;
+  }
 
  private:
   struct Term {

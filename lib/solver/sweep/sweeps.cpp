@@ -130,11 +130,12 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
-    for (const int side : {0, 1})
-      if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
-    for (const int side : {0, 1})
+    for (const int side : {0, 1}) {
+      using Surface = FreeSurface<D, Real>;
+      if (reach_ > 0) surfaces_[axis][side] = Surface(state.layout, domain, axis, side);
       if (reach_ > 0 && shear_)
-        beside_void_[axis][side] = FreeSurface<D, Real>::beside_void(state.layout, domain, axis, side);
+        surfaces_[axis][2 + side] = Surface::beside_void(state.layout, domain, axis, side);
+    }
   }
   find_stencils(domain);
   anisotropic_cells_ = Cells(domain, reach_, stencils_);
@@ -163,7 +164,7 @@ void Sweeps<D, Real>::find_stencils(const Domain<D>& domain) {
       const auto wave = pair == 0 ? wave_p : wave_s;
       if (wave == wave_s && !shear_) continue;
       const SlotBeside<D> slot_beside = [this, axis](Index<D> at, int side) {
-        const auto number = beside_void_[std::size_t(axis)][std::size_t(side)].corrected(at);
+        const auto number = beside_void(axis, side).corrected(at);
         at[std::size_t(axis)] += side;
         return number >= 0 ? of_void(number) : axis == z_axis ? corrections_.slot(at) : -1;
       };
@@ -246,9 +247,8 @@ std::int64_t Sweeps<D, Real>::memory_bytes() const {
                        (split_ ? split_->memory_bytes() : 0);
   for (const auto& of_axis : stencils_)
     for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
-  for (const auto* surfaces : {&free_surfaces_, &beside_void_})
-    for (const auto& of_axis : *surfaces)
-      for (const auto& of_side : of_axis) bytes += of_side.memory_bytes();
+  for (const auto& of_axis : surfaces_)
+    for (const auto& surface : of_axis) bytes += surface.memory_bytes();
   return bytes;
 }
 
@@ -334,7 +334,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                                    pairs_from(axis, fields + columns.first, pitch, whole_step), material.b,
                                    scale, outgoing);
   for (const int side : {0, 1})
-    if (whole_step && axis == 0) add_tractions_beside_void(axis, side, line, columns, outgoing);
+    if (whole_step && axis == 0) add_tractions(beside_void(axis, side), line, columns, outgoing);
 }
 
 /// From the first cell on.
@@ -582,9 +582,8 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
-  for (auto* surfaces : {&free_surfaces_, &beside_void_})
-    for (auto& of_side : (*surfaces)[axis])
-      of_side.update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
+  for (auto& surface : surfaces_[axis])
+    surface.update_corrections(state_, {0, std::numeric_limits<std::int64_t>::max()});
   if (axis == z_axis) corrections_.update_all(state_);
   if (axis == z_axis && split_) split_->update_all();
   const std::int64_t sheets = layout.lines() / rows;
@@ -639,34 +638,20 @@ void Sweeps<D, Real>::enter_grid(int axis, int side, std::int64_t n, OutgoingWav
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::add_surface_tractions(int axis, int side, std::int64_t number, std::int64_t count,
-                                            OutgoingWaves<Real> entering) const {
-  const auto& tractions = free_surfaces_[axis][side].tractions();
+void Sweeps<D, Real>::add_tractions(const FreeSurface<D, Real>& surface, const Index<D>& line,
+                                    const IndexRange& columns, OutgoingWaves<Real> entering) const {
+  const auto& tractions = surface.tractions();
   if (tractions.empty()) return;
-  for (int p = 0; p < D; ++p) {
-    const Real* const traction = tractions.of(p) + number;
-    Real* const wave = side ? entering.down(p) : entering.up(p);
-    for (std::int64_t i = 0; i < count; ++i) wave[i] += side ? traction[i] : -traction[i];
-  }
-}
-
-template <int D, class Real>
-void Sweeps<D, Real>::add_tractions_beside_void(int axis, int side, const Index<D>& line,
-                                                const IndexRange& columns,
-                                                OutgoingWaves<Real> entering) const {
-  const auto& surface = beside_void_[axis][side];
-  if (surface.tractions().empty()) return;
-  const std::int64_t along_x = axis > 0 ? 0 : side ? -1 : 1;
   const auto number = state_.layout.line_number(line);
-  const auto cells = surface.numbers({number, number + 1}, {columns.first + along_x, columns.last + along_x});
-  for (auto n = cells.first; n < cells.last; ++n)
-    for (int p = 0; p < D; ++p) {
-      const auto x = surface.column(n) - along_x - columns.first;
-      const Real traction = surface.tractions().of(p)[n];
-      if (side)
-        entering.down(p)[x] += traction;
+  const std::int64_t from = columns.first + surface.along_x();
+  const auto cells = surface.numbers({number, number + 1}, {from, columns.last + surface.along_x()});
+  for (int p = 0; p < D; ++p)
+    for (auto n = cells.first; n < cells.last; ++n) {
+      const auto x = surface.column(n) - from;
+      if (surface.side())
+        entering.down(p)[x] += tractions.of(p)[n];
       else
-        entering.up(p)[x] -= traction;
+        entering.up(p)[x] -= tractions.of(p)[n];
     }
 }
 
@@ -804,7 +789,7 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   reconstruct_row(0, at, piece.reconstructed, piece.fields, piece.pitch, 1, scale, first, work.prefetch());
   const auto enter_by = [&](int side, OutgoingWaves<Real> outgoing, OutgoingWaves<Real> entering) {
     enter_grid(0, side, 1, outgoing, entering);
-    if (scale == 1) add_surface_tractions(0, side, free_surfaces_[0][side].number(at), 1, entering);
+    if (scale == 1) add_tractions(edge(0, side), at, piece.reconstructed, first);
   };
   if (begins) enter_by(0, first, first.at(-1));
   IndexRange with_faces = piece.reconstructed;
@@ -887,16 +872,12 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
-    // Splittings of fourth order have no whole steps: nothing is missing there.
-    if (axis == z_axis && scale == 1 && (row == 0 || row == rows)) {
-      const int side = row == 0 ? 0 : 1;
-      add_surface_tractions(axis, side, free_surfaces_[axis][side].number(at) + x, n,
-                            row == 0 ? above : here);
-    }
-    // Beside void only now: they are known once the row behind that of the surface is there.
-    if (axis == z_axis && scale == 1 && row > 0 && row < rows) {
-      add_tractions_beside_void(axis, 0, line(row), wide, above);
-      add_tractions_beside_void(axis, 1, line(row - 1), wide, here);
+    // Splittings of fourth order have no whole steps: nothing is missing there. Beside void only now: they
+    // are known once the row behind that of the surface is there.
+    if (axis == z_axis && scale == 1) {
+      if (row < rows) add_tractions(row == 0 ? edge(axis, 0) : beside_void(axis, 0), line(row), wide, above);
+      if (row > 0)
+        add_tractions(row == rows ? edge(axis, 1) : beside_void(axis, 1), line(row - 1), wide, here);
     }
     if (advance_bent(axis, at, row, wide, scale, ring, work)) return;
     const auto uniform_runs = [&](std::int64_t k) {
@@ -1094,63 +1075,52 @@ Image<Real> image_of(std::int64_t j, std::int64_t cells, const Mirror<Real>& edg
 
 template <int D, class Real>
 void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& columns) {
-  IndexRange at = columns;
-  if (axis > 0) {
-    at.first = state_.layout.line_index(line)[std::size_t(axis)];
-    at.last = at.first + 1;
-  }
   if (axis == 0 && split_) split_->retain(line, lagging(columns));
-  for (auto& surface : beside_void_[axis])
-    if (!surface.empty()) surface.retain(state_, line, axis == 0 ? lagging(columns) : columns);
-  auto& edges = free_surfaces_[axis];
-  if (at.first == 0 && !edges[0].empty()) edges[0].retain(state_, line);
-  if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].retain(state_, line);
+  for (auto& surface : surfaces_[axis])
+    surface.retain(state_, line, axis == 0 && surface.inside() ? lagging(columns) : columns);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::correct(FreeSurface<D, Real>& surface, const IndexRange& lines,
+                              const IndexRange& columns) {
+  if (!surface.empty() && !lines.empty()) surface.update_corrections(state_, surface.numbers(lines, columns));
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line, const IndexRange& columns) {
   if (split_) split_->update_line(line, lagging(columns));
-  correct_beside_void(0, {line, line + 1}, lagging(columns));
-  for (auto& edge : free_surfaces_[0])
-    if (!edge.empty()) edge.update_corrections(state_, line, line + 1);
-}
-
-template <int D, class Real>
-void Sweeps<D, Real>::correct_beside_void(int axis, const IndexRange& lines, const IndexRange& columns) {
-  for (auto& surface : beside_void_[axis]) {
-    if (surface.empty() || lines.empty()) continue;
-    const auto cells = surface.numbers(lines, columns);
-    surface.update_corrections(state_, cells.first, cells.last);
-  }
+  for (auto& surface : surfaces_[0]) correct(surface, {line, line + 1}, lagging(columns));
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_flank_surfaces(std::int64_t plane, const IndexRange& rows) {
-  const auto cells = state_.layout.padded_nx();
-  const auto of_plane = state_.layout.shape()[1], last = std::min(rows.last, of_plane);
-  correct_beside_void(1, {plane * of_plane + rows.first, plane * of_plane + last}, {0, cells});
-  for (const int side : {0, 1})
-    if (auto& edge = free_surfaces_[1][side];
-        !edge.empty() && (side == 0 ? rows.first == 0 : rows.first <= of_plane && rows.last > of_plane))
-      edge.update_corrections(state_, plane * cells, (plane + 1) * cells);
+  const auto of_plane = state_.layout.shape()[1];
+  for (auto& surface : surfaces_[1]) {
+    IndexRange of{rows.first, std::min(rows.last, of_plane)};
+    if (!surface.inside()) {
+      const auto edge = surface.side() ? of_plane : 0;  // the face
+      if (edge < rows.first || edge >= rows.last) continue;
+      of = surface.side() ? IndexRange{edge - 1, edge} : IndexRange{0, 1};
+    }
+    correct(surface, {plane * of_plane + of.first, plane * of_plane + of.last},
+            {0, state_.layout.padded_nx()});
+  }
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& columns) {
-  const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
-  const auto correct = [&](int side) {
-    free_surfaces_[z_axis][side].update_corrections(state_, columns.first * cells, columns.last * cells);
-  };
-  if (step == reach_) correct(0);
-  if (step == state_.layout.shape()[z_axis]) correct(1);
+  const auto cells = D == 2 ? 1 : state_.layout.padded_nx(), rows = state_.layout.shape()[z_axis];
   corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
-  // Of the row before: the one behind it must be as before the sweep, too.
-  if (const auto row = step - 1; row >= 0 && row < state_.layout.shape()[z_axis]) {
-    const auto lines = D == 2 ? 1 : state_.layout.shape()[1];
-    const IndexRange of_row =
-        D == 2 ? IndexRange{0, 1} : IndexRange{columns.first, std::min(columns.last, lines)};
-    correct_beside_void(z_axis, {row * lines + of_row.first, row * lines + of_row.last},
-                        D == 2 ? columns : IndexRange{0, cells});
+  const auto lines = D == 2 ? 1 : state_.layout.shape()[1];
+  const IndexRange of_row =
+      D == 2 ? IndexRange{0, 1} : IndexRange{columns.first, std::min(columns.last, lines)};
+  for (auto& surface : surfaces_[z_axis]) {
+    // Inside of the row before: the one behind it must be as before the sweep, too.
+    const auto row = surface.inside() || surface.side() ? step - 1 : 0;
+    const bool due = surface.inside() ? row >= 0 && row < rows : step == (surface.side() ? rows : reach_);
+    if (due)
+      correct(surface, {row * lines + of_row.first, row * lines + of_row.last},
+              D == 2 ? columns : IndexRange{0, cells});
   }
   if (split_) split_->update(step, columns);
 }
@@ -1160,7 +1130,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch,
                                        Real scale) const {
   const std::int64_t n = state_.layout.shape()[0];
-  const auto& edge = free_surfaces_[0][side];
+  const auto& edge = this->edge(0, side);
   const auto& all = pairs_[0];
   for (int p = 0; p < pair_count(); ++p) {
     const Mirror<Real> mirror(extension_of(edges_[0][side], all[p].wave));
@@ -1186,7 +1156,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns,
                                       Real scale) {
   const std::int64_t n = state_.layout.shape()[axis];
-  const auto& edge = free_surfaces_[axis][side];
+  const auto& edge = this->edge(axis, side);
   const auto& all = pairs_[axis];
   const auto first = edge.empty() ? 0 : edge.number(at);
   for (int p = 0; p < pair_count(); ++p) {

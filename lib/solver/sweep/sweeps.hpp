@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -91,8 +92,8 @@ class Sweeps {
   /// Whether free surfaces or interfaces of an axis are corrected: sweeps along it then need the velocities
   /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
-    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
-           !beside_void_[axis][0].empty() || !beside_void_[axis][1].empty() ||
+    return std::any_of(surfaces_[axis].begin(), surfaces_[axis].end(),
+                       [](const auto& surface) { return !surface.empty(); }) ||
            (axis == z_axis && !corrections_.empty()) || (split_ && split_->any(axis));
   }
   /// Cells the reconstruction reads to each side.
@@ -206,16 +207,14 @@ class Sweeps {
   template <class Advance>
   void filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, Real scale,
                 std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
-  /// Beside void, of the cells in these columns of lines that follow each other.
-  void correct_beside_void(int axis, const IndexRange& lines, const IndexRange& columns);
+  /// The cells of a surface in these columns of lines that follow each other.
+  void correct(FreeSurface<D, Real>& surface, const IndexRange& lines, const IndexRange& columns);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                   OutgoingWaves<Real> entering) const;
-  /// Instead of no traction at a free edge, in a sweep over a whole step, from a cell of it on.
-  void add_surface_tractions(int axis, int side, std::int64_t number, std::int64_t count,
-                             OutgoingWaves<Real> entering) const;
-  /// The same beside void on that side of the cells of a line, whose waves in these columns enter them.
-  void add_tractions_beside_void(int axis, int side, const Index<D>& line, const IndexRange& columns,
-                                 OutgoingWaves<Real> entering) const;
+  /// Instead of no traction at the cells of a surface in a line, in a sweep over a whole step: their waves in
+  /// these columns enter them.
+  void add_tractions(const FreeSurface<D, Real>& surface, const Index<D>& line, const IndexRange& columns,
+                     OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
@@ -257,7 +256,7 @@ class Sweeps {
     PairCorrections<Real> of{nullptr, nullptr, split_ ? split_->images(pair) : nullptr, {}};
     if (axis == z_axis) of.v = corrections_.velocity(pair), of.s = corrections_.traction(pair);
     for (const std::size_t side : {0, 1}) {
-      const auto& surface = beside_void_[std::size_t(axis)][side];
+      const auto& surface = beside_void(axis, int(side));
       const auto& tractions = surface.tractions();
       of.beside_void[side] = {surface.velocity_correction(pair), surface.traction_correction(pair),
                               whole && !tractions.empty() ? tractions.bend(pair) : nullptr};
@@ -265,10 +264,13 @@ class Sweeps {
     return of;
   }
   CurvilinearStencils<D, Real> curvilinear_stencils_;
-  std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
-  std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
-  std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
-  std::array<std::array<FreeSurface<D, Real>, 2>, D> beside_void_;    // [axis][side]
+  std::array<std::array<Pair, D>, D> pairs_;                 // [axis]: P, then S by axes
+  std::array<std::array<int, changed_at_most>, D> changed_;  // [axis]
+  /// [axis]: at the low and the high edge of the grid, then beside void on the low and the high side of
+  /// cells.
+  std::array<std::array<FreeSurface<D, Real>, 4>, D> surfaces_;
+  const FreeSurface<D, Real>& edge(int axis, int side) const { return surfaces_[axis][side]; }
+  const FreeSurface<D, Real>& beside_void(int axis, int side) const { return surfaces_[axis][2 + side]; }
 };
 
 }  // namespace slipwave::solver
