@@ -9,24 +9,6 @@
 #include "solver/sweep/matrix_faces.hpp"
 
 namespace slipwave::solver {
-namespace {
-
-/// Rows of a block of values as weighted_sum() takes them.
-template <std::size_t Count, class Real, std::size_t... N>
-void sum_rows(std::int64_t n, const Real (*weights)[cells_at_once], const Real* const* rows, Real* to,
-              std::index_sequence<N...>) {
-  const Real* const w[Count] = {weights[N]...};
-  const Real* const x[Count] = {rows[N]...};
-  add_weighted(n, w, x, to);
-}
-/// to = the sum of the first Count rows of weights times these rows.
-template <std::size_t Count, class Real>
-void weighted_sum(std::int64_t n, const Real (*weights)[cells_at_once], const Real* const* rows, Real* to) {
-  sum_rows<Count, Real>(n, weights, rows, to, std::make_index_sequence<Count>());
-}
-
-}  // namespace
-
 std::int64_t CellList::end_of_run(std::int64_t begin, std::int64_t end) const {
   auto n = begin + 1;
   while (n < end && (*this)[n].x - (*this)[begin].x == n - begin) ++n;
@@ -121,6 +103,12 @@ void AnisotropicCells<D, Real>::expand(std::int64_t first, std::int64_t count, i
   to.of = of_first, to.filled = alike;
 }
 
+/// The motions of expanded waves.
+template <int D, class Real>
+static auto motions_of(const RunOfValues<std::size_t(D + D * D), Real>& waves) {
+  return [&waves](std::size_t wave, std::size_t pair) { return waves.values[D + D * wave + pair]; };
+}
+
 /// All waves of a run of cells of a level row whose stencils are whole (theory.md (T4)): reconstruction is
 /// linear, so components are reconstructed before they are turned. `at` is the place of the first.
 template <int D, class Real>
@@ -139,28 +127,13 @@ void AnisotropicCells<D, Real>::reconstruct_run(int axis, const IndexRange& run,
         kernels.reconstruct(n, stride, pairs[p].v + to, pairs[p].s + to, of.values[wave], b + to, scale,
                             up[wave][p], down[wave][p]);
     const auto turn = [&](const Real(&waves)[D][D][cells_at_once], const auto& to_pair) {
-      for (std::size_t wave = 0; wave < D; ++wave) {
-        const Real* rows[D];
-        for (std::size_t p = 0; p < D; ++p) rows[p] = waves[wave][p];
-        weighted_sum<D>(n, of.values + D + D * wave, rows, sizes[wave]);
-      }
-      put_sums(n, of, sizes, to_pair);
+      for (std::size_t wave = 0; wave < D; ++wave)
+        weighted_sum<Real, D>(n, rows_from<D>(of.values + D + D * wave), rows_from<D>(waves[wave]),
+                              sizes[wave]);
+      put_components<D>(n, motions_of<D>(of), sizes, to_pair);
     };
     turn(up, [&](int p) { return outgoing.up(p) + to; });
     turn(down, [&](int p) { return outgoing.down(p) + to; });
-  }
-}
-
-/// The components of waves of these sizes.
-template <int D, class Real>
-template <class ToPair>
-void AnisotropicCells<D, Real>::put_sums(std::int64_t n, const Waves& of,
-                                         const Real (&sizes)[D][cells_at_once], const ToPair& to_pair) {
-  for (int p = 0; p < D; ++p) {
-    const Real *weights[D], *rows[D];
-    for (std::size_t wave = 0; wave < D; ++wave)
-      weights[wave] = of.values[D + D * wave + std::size_t(p)], rows[wave] = sizes[wave];
-    add_weighted(n, weights, rows, to_pair(p));
   }
 }
 
@@ -174,9 +147,8 @@ void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(int axis, const Inde
                                                             const BentAlong<Real>& metric,
                                                             OutgoingWaves<Real> outgoing) const {
   const Real sign = scale < 0 ? -1 : 1;
-  Real v[D][most_places][cells_at_once], s[D][most_places][cells_at_once];  // [wave][place]
+  WavesOfRun<D, Real> waves;
   Real mean[cells_at_once], turned[D][cells_at_once], traction[D][cells_at_once], sum[cells_at_once];
-  Real up[D][cells_at_once], down[D][cells_at_once];
   Waves of;
   for (auto first = run.first; first < run.last; first += cells_at_once) {
     const auto n = std::min(cells_at_once, run.last - first), to = at + first - run.first;
@@ -188,24 +160,23 @@ void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(int axis, const Inde
     }
     for (int k = -reach_; k <= reach_; ++k) {
       const Real* const half_j = metric.half_x + to + k * metric.stride;
-      const Real *velocities[D], *tractions[D];
+      RowsOf<Real, D> velocities;
       for (std::size_t p = 0; p < D; ++p) {
         const Real* const stress = pairs[p].s + to + k * stride;
         for (std::int64_t i = 0; i < n; ++i) traction[p][i] = (half_j[i] + half_j[i + 1]) * stress[i];
-        velocities[p] = pairs[p].v + to + k * stride, tractions[p] = traction[p];
+        velocities[p] = pairs[p].v + to + k * stride;
       }
       for (std::size_t wave = 0; wave < D; ++wave) {
-        const auto* const motion = of.values + D + D * wave;
-        Real *const to_v = v[wave][k + reach_], *const to_s = s[wave][k + reach_];
-        weighted_sum<D>(n, motion, velocities, sum), weighted_sum<D>(n, motion, tractions, to_s);
+        const auto motion = rows_from<D>(of.values + D + D * wave);
+        Real *const to_v = waves.pairs[wave][0][k + reach_], *const to_s = waves.pairs[wave][1][k + reach_];
+        weighted_sum(n, motion, velocities, sum), weighted_sum(n, motion, rows_from<D>(traction), to_s);
         for (std::int64_t i = 0; i < n; ++i) to_v[i] = mean[i] * sum[i], to_s[i] += turned[wave][i] * sum[i];
       }
     }
-    for (std::size_t wave = 0; wave < D; ++wave)
-      kernels.reconstruct(n, cells_at_once, v[wave][reach_], s[wave][reach_], of.values[wave], b + to, scale,
-                          up[wave], down[wave]);
-    put_sums(n, of, up, [&](int p) { return outgoing.up(p) + to; });
-    put_sums(n, of, down, [&](int p) { return outgoing.down(p) + to; });
+    waves.reconstruct(
+        n, reach_, kernels, [&](std::size_t wave) { return of.values[wave]; }, b + to, scale);
+    put_components<D>(n, motions_of<D>(of), waves.up, [&](int p) { return outgoing.up(p) + to; });
+    put_components<D>(n, motions_of<D>(of), waves.down, [&](int p) { return outgoing.down(p) + to; });
   }
 }
 
@@ -331,7 +302,6 @@ void AnisotropicCells<D, Real>::add_stress(int axis, std::int64_t line, const In
                                            const Real* b, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
                                            const SweptRows<Real>& rows, Real* shear) const {
   if (empty()) return;
-  const auto cells = list_.in(line, columns);
   std::array<Real*, stresses> all;
   if constexpr (D == 2)
     all = {rows.s, rows.passive, rows.st};
@@ -339,23 +309,19 @@ void AnisotropicCells<D, Real>::add_stress(int axis, std::int64_t line, const In
     all = {rows.s, rows.passive, rows.passive2, rows.st, rows.st2, shear};
   RunOfValues<stresses * D, Real> of;
   Real change[D][cells_at_once], sum[cells_at_once];
-  const Real* changes[D];
-  for (std::size_t p = 0; p < D; ++p) changes[p] = change[p];
-  for (auto first = cells.first; first < cells.last;) {
-    const auto end = std::min(list_.end_of_run(first, cells.last), first + cells_at_once), n = end - first;
-    const auto i = list_[first].x - columns.first;
-    expand(first, n, axis, &OfAxis::missing, of);
+  list_.each_run(line, columns, [&](const IndexRange& run) {
+    const auto i = list_[run.first].x - columns.first, n = run.count();
+    expand(run.first, n, axis, &OfAxis::missing, of);
     for (int p = 0; p < D; ++p) {
       const Real *const from = lo.v(p) + i, *const to = hi.v(p) + i;
       for (std::int64_t k = 0; k < n; ++k) change[p][k] = size * b[i + k] * (to[k] - from[k]);
     }
     for (std::size_t m = 0; m < stresses; ++m) {
-      weighted_sum<D>(n, of.values + D * m, changes, sum);
+      weighted_sum<Real, D>(n, rows_from<D>(of.values + D * m), rows_from<D>(change), sum);
       Real* const stress = all[m] + i;
       for (std::int64_t k = 0; k < n; ++k) stress[k] += sum[k];
     }
-    first = end;
-  }
+  });
 }
 
 template class AnisotropicCells<2, float>;

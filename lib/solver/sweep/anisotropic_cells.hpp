@@ -15,6 +15,8 @@
 
 namespace slipwave::solver {
 
+/// Cells whose values are expanded at once.
+inline constexpr std::int64_t cells_at_once = 64;
 /// A cell and its medium.
 struct CellOfMedium {
   std::int32_t x, medium;
@@ -23,6 +25,21 @@ struct CellOfMedium {
 struct CellList : ByLine<CellOfMedium> {
   /// The first number behind cells that follow each other from `begin` on, at most `end`.
   std::int64_t end_of_run(std::int64_t begin, std::int64_t end) const;
+  /// Calls what(run) for numbers of cells of a line in these columns that follow each other, a few at once,
+  /// if so wanted of one medium.
+  template <class What>
+  void each_run(std::int64_t line, const IndexRange& columns, const What& what,
+                bool of_one_medium = false) const {
+    const auto all = in(line, columns);
+    for (auto first = all.first; first < all.last;) {
+      auto last = std::min(end_of_run(first, all.last), first + cells_at_once);
+      const auto of_first = [&](const CellOfMedium& one) { return one.medium == (*this)[first].medium; };
+      if (of_one_medium)
+        last = std::find_if_not(cells.begin() + first, cells.begin() + last, of_first) - cells.begin();
+      what(IndexRange{first, last});
+      first = last;
+    }
+  }
 };
 /// Calls what(columns) for runs of at most `most` faces beside cells of the list: `lo` and `hi` are the lines
 /// before and behind the faces, the cell before a face stands `shift` columns before that behind it.
@@ -45,8 +62,6 @@ void each_run_of_faces(const CellList& list, std::int64_t lo, std::int64_t hi, s
   }
 }
 
-/// Cells whose values are expanded at once.
-inline constexpr std::int64_t cells_at_once = 64;
 /// Cells that the widest stencil reads.
 inline constexpr int most_places = 2 * max_reach + 1;
 /// Values of a symmetric matrix, row by row from the diagonal on.
@@ -135,9 +150,6 @@ class AnisotropicCells {
   template <std::size_t Count>
   void expand(std::int64_t first, std::int64_t count, int axis, const std::array<Real, Count> OfAxis::*values,
               RunOfValues<Count, Real>& to) const;
-  template <class ToPair>
-  static void put_sums(std::int64_t n, const Waves& of, const Real (&sizes)[D][cells_at_once],
-                       const ToPair& to_pair);
   void reconstruct_run(int axis, const IndexRange& run, const Kernels<Real>& kernels, std::int64_t stride,
                        std::int64_t at, const Pairs& pairs, const Real* b, Real scale,
                        OutgoingWaves<Real> outgoing) const;

@@ -10,18 +10,6 @@
 namespace slipwave::solver {
 namespace {
 
-/// to = the sum of weights times rows, over components of velocity and traction.
-template <std::size_t Count, class Real>
-void combine(std::int64_t n, const Real (&weights)[Count][cells_at_once],
-             const Real (&rows)[Count][cells_at_once], Real* __restrict to) {
-  for (std::int64_t i = 0; i < n; ++i) {
-    Real sum = weights[0][i] * rows[0][i] + weights[1][i] * rows[1][i] + weights[2][i] * rows[2][i] +
-               weights[3][i] * rows[3][i];
-    if constexpr (Count == 6) sum += weights[4][i] * rows[4][i] + weights[5][i] * rows[5][i];
-    to[i] = sum;
-  }
-}
-
 /// Puts a vector into rows a pitch apart.
 template <int D, class Real>
 void put(const RowVector<D, Real>& vector, Real* to, std::int64_t pitch) {
@@ -147,41 +135,41 @@ void AnisotropicCellsAcross<D, Real>::reconstruct(std::int64_t line, const Index
                                                   OutgoingWaves<Real> outgoing) const {
   if (empty()) return;
   const Real sign = scale < 0 ? -1 : 1;
-  const auto cells = list_.in(line, columns);
   Weights weights;
   Motion motion;
-  Real pairs[D][2][most_places][cells_at_once];
-  Real up[D][cells_at_once], down[D][cells_at_once];
-  for (auto first = cells.first; first < cells.last;) {
-    const auto last = std::min(list_.end_of_run(first, cells.last), first + cells_at_once);
-    const auto n = last - first, to = list_[first].x - columns.first;
-    const auto rows = rows_of(line, first);
+  WavesOfRun<D, Real> waves;
+  Real sums[D][cells_at_once];
+  list_.each_run(line, columns, [&](const IndexRange& run) {
+    const auto n = run.count(), to = list_[run.first].x - columns.first;
+    const auto rows = rows_of(line, run.first);
     find_weights(rows, n, sign, weights);
     for (int k = -reach_; k <= reach_; ++k) {
       load(n, fields.first + to + k * fields.stride, fields.pitch, metric.half_n + to + k * metric.stride,
            metric, motion);
       for (std::size_t wave = 0; wave < D; ++wave)
         for (const std::size_t of : {0, 1})
-          combine<motion_parts>(n, weights[wave][of], motion, pairs[wave][of][k + reach_]);
+          weighted_sum<Real, motion_parts>(n, rows_from<motion_parts>(weights[wave][of]),
+                                           rows_from<motion_parts>(motion),
+                                           waves.pairs[wave][of][k + reach_]);
     }
-    for (std::size_t wave = 0; wave < D; ++wave)
-      kernels.reconstruct(n, cells_at_once, pairs[wave][0][reach_], pairs[wave][1][reach_],
-                          rows[2 * of_face + wave], b + to, scale, up[wave], down[wave]);
-    const auto put_sums = [&](const Real(&waves)[D][cells_at_once], std::size_t side, Real* result) {
-      const auto from = side * of_face + D;
+    waves.reconstruct(
+        n, reach_, kernels, [&](std::size_t wave) { return rows[2 * of_face + wave]; }, b + to, scale);
+    const auto put_resolved = [&](const Real(&sizes)[D][cells_at_once], std::size_t side, Real* result) {
+      const auto motion_of = [&](std::size_t wave, std::size_t c) {
+        return rows[side * of_face + D + D * wave + c];
+      };
+      put_components<D>(n, motion_of, sizes, [&](int c) { return sums[c]; });
       for (std::int64_t i = 0; i < n; ++i) {
-        std::array<Real, std::size_t(D)> sum{};
-        for (std::size_t wave = 0; wave < D; ++wave)
-          for (std::size_t c = 0; c < D; ++c) sum[c] += rows[from + D * wave + c][i] * waves[wave][i];
+        std::array<Real, std::size_t(D)> sum;
+        for (std::size_t c = 0; c < D; ++c) sum[c] = sums[c][i];
         const auto face = to + i + std::int64_t(side) * metric.stride;
         put<D>(resolved_on_face<D>(row_vector<D>(sum), face_normal<D>(metric.half_n + face, metric.pitch),
                                    metric.over_face[face]),
                result + i, 2 * outgoing.pitch);
       }
     };
-    put_sums(up, 1, outgoing.up(0) + to), put_sums(down, 0, outgoing.down(0) + to);
-    first = last;
-  }
+    put_resolved(waves.up, 1, outgoing.up(0) + to), put_resolved(waves.down, 0, outgoing.down(0) + to);
+  });
 }
 
 template <int D, class Real>
@@ -208,22 +196,20 @@ void AnisotropicCellsAcross<D, Real>::impedances_beside(std::int64_t line, std::
       for (std::size_t d = c; d < D; ++d)
         to.values[place_in<D>(c, d)][k] = share * normal[c] * normal[d] + (c == d ? own : Real(0));
   }
-  for (auto first = cells.first; first < cells.last;) {
-    const auto last = list_.end_of_run(first, cells.last), n = last - first,
-               k = list_[first].x - columns.first;
+  list_.each_run(line, columns, [&](const IndexRange& run) {
+    const auto k = list_[run.first].x - columns.first;
     // The face behind a cell that stands before it.
-    const auto all = rows_of(line, first);
+    const auto all = rows_of(line, run.first);
     const Rows rows{all.first + std::int64_t(side == 0 ? of_face : 0) * all.pitch, all.pitch};
     for (std::size_t c = 0; c < D; ++c)
       for (std::size_t d = c; d < D; ++d)
-        for (std::int64_t i = 0; i < n; ++i) {
+        for (std::int64_t i = 0; i < run.count(); ++i) {
           Real sum = 0;
           for (std::size_t wave = 0; wave < D; ++wave)
             sum += rows[wave][i] * rows[D + D * wave + c][i] * rows[D + D * wave + d][i];
           to.values[place_in<D>(c, d)][k + i] = sum;
         }
-    first = last;
-  }
+  });
 }
 
 template <int D, class Real>
@@ -277,16 +263,11 @@ template <int D, class Real>
 void AnisotropicCellsAcross<D, Real>::add_stress(std::int64_t line, const IndexRange& columns, Real size,
                                                  const BentUpdate<Real>& of) const {
   if (empty()) return;
-  const auto cells = list_.in(line, columns);
   const auto axes = axes_of_pairs<D>(D - 1);
   Real strain[stresses][cells_at_once];
-  for (auto first = cells.first; first < cells.last;) {
-    // Of one medium.
-    const auto medium = list_[first].medium;
-    auto last = first + 1;
-    const auto stop = std::min(list_.end_of_run(first, cells.last), first + cells_at_once);
-    while (last < stop && list_[last].medium == medium) ++last;
-    const auto n = last - first, i = list_[first].x - columns.first;
+  const auto add = [&](const IndexRange& run) {
+    const auto medium = list_[run.first].medium;
+    const auto n = run.count(), i = list_[run.first].x - columns.first;
     for (std::int64_t k = 0; k < n; ++k) {
       const auto at = i + k;
       const Real moved = size * of.metric.over_j[at] * of.material.b[at];
@@ -313,8 +294,8 @@ void AnisotropicCellsAcross<D, Real>::add_stress(std::int64_t line, const IndexR
           stress[k] += sum;
         }
       }
-    first = last;
-  }
+  };
+  list_.each_run(line, columns, add, true);
 }
 
 template class AnisotropicCellsAcross<2, float>;

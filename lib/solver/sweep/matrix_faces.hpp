@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "solver/sweep/anisotropic_cells.hpp"
 
@@ -66,17 +69,52 @@ constexpr std::size_t place_in(std::size_t i, std::size_t k) {
   return i <= k ? i * (2 * D - 1 - i) / 2 + k : place_in<D>(k, i);
 }
 
-/// to = the sum of weights times rows of n values each, which are D, or twice as many.
-template <class Real>
-void add_weighted(std::int64_t n, const Real* const (&w)[2], const Real* const (&x)[2], Real* __restrict to) {
-  const Real* __restrict const a = w[0], * __restrict const b = w[1], * __restrict const p = x[0], * __restrict const q = x[1];
-  for (std::int64_t i = 0; i < n; ++i) to[i] = a[i] * p[i] + b[i] * q[i];
+template <class Real, std::size_t Count>
+using RowsOf = std::array<const Real*, Count>;
+/// Rows of values that follow each other.
+template <std::size_t Count, class Real>
+RowsOf<Real, Count> rows_from(const Real (*block)[cells_at_once]) {
+  RowsOf<Real, Count> rows;
+  for (std::size_t k = 0; k < Count; ++k) rows[k] = block[k];
+  return rows;
 }
-template <class Real>
-void add_weighted(std::int64_t n, const Real* const (&w)[3], const Real* const (&x)[3], Real* __restrict to) {
-  const Real* __restrict const a = w[0], * __restrict const b = w[1], * __restrict const c = w[2];
-  const Real* __restrict const p = x[0], * __restrict const q = x[1], * __restrict const r = x[2];
-  for (std::int64_t i = 0; i < n; ++i) to[i] = a[i] * p[i] + b[i] * q[i] + c[i] * r[i];
+/// to = the sum of weights times rows of n values each.
+template <class Real, std::size_t Count, std::size_t... K>
+void weighted_sum(std::int64_t n, const RowsOf<Real, Count> weights, const RowsOf<Real, Count> rows,
+                  Real* __restrict const to, std::index_sequence<K...>) {
+  for (std::int64_t i = 0; i < n; ++i) to[i] = (... + (weights[K][i] * rows[K][i]));
+}
+template <class Real, std::size_t Count>
+void weighted_sum(std::int64_t n, const RowsOf<Real, Count>& weights, const RowsOf<Real, Count>& rows,
+                  Real* to) {
+  weighted_sum(n, weights, rows, to, std::make_index_sequence<Count>());
+}
+
+/// The waves of a run of cells, each as one pair of numbers v, s at the places of its stencil (WavePair), and
+/// what leaves the cells.
+template <int D, class Real>
+struct WavesOfRun {
+  Real pairs[D][2][most_places][cells_at_once];  // [wave][v, s][place]
+  Real up[D][cells_at_once], down[D][cells_at_once];
+
+  /// z_of(wave) is the row of its impedances.
+  template <class ZOf>
+  void reconstruct(std::int64_t n, int reach, const Kernels<Real>& kernels, const ZOf& z_of, const Real* b,
+                   Real scale) {
+    for (std::size_t wave = 0; wave < D; ++wave)
+      kernels.reconstruct(n, cells_at_once, pairs[wave][0][reach], pairs[wave][1][reach], z_of(wave), b,
+                          scale, up[wave], down[wave]);
+  }
+};
+/// The components of n waves of these sizes; motion_of(wave, component) is a row, and so is to(component).
+template <int D, class Real, class MotionOf, class To>
+void put_components(std::int64_t n, const MotionOf& motion_of, const Real (&sizes)[D][cells_at_once],
+                    const To& to) {
+  for (std::size_t c = 0; c < D; ++c) {
+    RowsOf<Real, D> weights;
+    for (std::size_t wave = 0; wave < D; ++wave) weights[wave] = motion_of(wave, c);
+    weighted_sum<Real, D>(n, weights, rows_from<D>(sizes), to(int(c)));
+  }
 }
 
 }  // namespace slipwave::solver
