@@ -26,25 +26,31 @@ double order_of_sizes(double d1, double d2, double r1, double r2, double kept) {
 
 ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_two, double kept) {
   const auto& found = *sizes[0].traces;
-  const auto difference = [&](std::size_t n) { return sum_of(*sizes[n].traces, found, -1); };
   const auto ratio = [&](std::size_t n) { return sizes[n].spacing_m / sizes[0].spacing_m; };
   const auto derived = [&](std::size_t n) { return std::abs(sizes[n].derived - sizes[0].derived); };
   ErrorOfSizes of;
-  of.wrong = difference(1);
-  of.apart = size_of_error(of.wrong, found).whole;
-  if (derived(1) > of.apart) of.share = of.apart / derived(1);
-  const auto rest_of = [&](double apart, std::size_t n) {
-    return std::sqrt(std::max(0., apart * apart - std::pow(of.share * derived(n), 2)));
+  of.wrong = sum_of(*sizes[1].traces, found, -1);
+  std::vector<double> apart = {0, size_of_error(of.wrong, found).whole};
+  if (sizes.size() > 2) apart.push_back(size_of_error(sum_of(*sizes[2].traces, found, -1), found).whole);
+  double most = 1;
+  for (std::size_t n = 1; n < apart.size(); ++n)
+    if (most * derived(n) > apart[n]) most = apart[n] / derived(n);
+  // The bound that takes off a share of what is derived.
+  const auto bound = [&](double share) {
+    const auto rest = [&](std::size_t n) {
+      return std::sqrt(std::max(0., std::pow(apart[n], 2) - std::pow(share * derived(n), 2)));
+    };
+    of.share = share;
+    of.order = apart.size() > 2 ? order_of_sizes(rest(1), rest(2), ratio(1), ratio(2), kept) : order_of_two;
+    of.rest = rest(1) / std::abs(std::pow(ratio(1), of.order) - 1);
+    of.error = share * sizes[0].derived + of.rest;
+    return of.error;
   };
-  const double rest = rest_of(of.apart, 1);
-  of.order = order_of_two;
-  if (sizes.size() > 2)
-    of.order =
-        order_of_sizes(rest, rest_of(size_of_error(difference(2), found).whole, 2), ratio(1), ratio(2), kept);
-  const double grown = std::pow(ratio(1), of.order) - 1;  // below 0 in smaller cells
-  of.rest = rest / std::abs(grown);
-  of.error = std::hypot(of.share * sizes[0].derived, of.rest);
-  const double factor = of.apart > 0 ? std::copysign(of.error / of.apart, grown) : 0;
+  const double without = bound(0);
+  if (!(bound(most) < without)) bound(0);
+  of.apart = apart[1];
+  // Smaller cells differ the other way.
+  const double factor = of.apart > 0 ? std::copysign(of.error / of.apart, ratio(1) - 1) : 0;
   for (auto& gather : of.wrong)
     for (auto& trace : gather.traces)
       for (auto& sample : trace.samples) sample *= factor;

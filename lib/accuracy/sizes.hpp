@@ -22,10 +22,12 @@ struct SizedTraces {
 double order_of_sizes(double d1, double d2, double r1, double r2, double kept = 2);
 
 /// What is wrong with the traces in the first cells (exact ones taken away), by those in the others: of an
-/// error of order p, u_n - u_0 = (r_n^p - 1) e. Dispersion of the direct waves is of a higher order, and what
-/// it makes of a difference is derived: of |u_n - u_0|^2 that squared is taken off, the order is that of the
-/// rest, and what is derived for the first cells is added to it again, squared. Where less is found than is
-/// derived, it counts by as much less. Of two sizes p is `order_of_two`.
+/// error of order p, u_n - u_0 = (r_n^p - 1) e. Two bounds are known, and the lesser counts. One takes all of
+/// u_1 - u_0 to be of the order that the three sizes show, `kept` at most: what is of a higher order is less
+/// in the first cells. The other knows what dispersion of the direct waves, of such a higher order, makes of
+/// the differences: of |u_n - u_0|^2 that squared is taken off, the order is that of the rest, and what is
+/// derived for the first cells is added to it. Where less is found than is derived, that counts by as much
+/// less. Of two sizes p is `order_of_two`.
 struct ErrorOfSizes {
   double order = 1;
   double apart = 0;           // |u_1 - u_0|

@@ -2,6 +2,7 @@
 #include "model/model_in_cells.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
@@ -45,37 +46,94 @@ void clear_beside_rock(Model<D>& model) {
 template <int D>
 ModelInCells<D>::ModelInCells(const Model<D>& model, const std::optional<Attenuation>& unrelaxed)
     : model_(model), unrelaxed_(unrelaxed), fit_(model.geology.fit) {
-  if (!model.geology.knows_places()) return;
+  find_geology();
+  find_level_faces();
+}
+
+template <int D>
+void ModelInCells<D>::find_geology() {
+  if (!model_.geology.knows_places()) return;
   try {
-    auto own = medium_of_geology(model.grid().spacing_m, fit_);
+    auto own = medium_of_geology(model_.grid().spacing_m, fit_);
     for (const auto property : own.properties())
-      if (!model.medium.has(property)) taken_out_.push_back(property), own[property] = {};
-    as_built_ = equal(own, model.medium);
-    if (as_built_ && on_faces())
-      fit_ = {};
-    else
-      tops_cut_cells_ = as_built_ && !model.grid().rows;
+      if (!model_.medium.has(property)) taken_out_.push_back(property), own[property] = {};
+    as_built_ = equal(own, model_.medium);
+    if (as_built_) find_cut_tops();
   } catch (const Error&) {
     // It cannot be built so any more.
   }
 }
 
-/// Whether every horizon lies on faces of the cells as they are. In other cells that takes rows that follow.
 template <int D>
-bool ModelInCells<D>::on_faces() const {
-  if (model_.grid().rows) return false;
-  auto geology = model_.geology;
-  geology.fit = {};
-  const auto fit = fit_of(geology, covering(model_.grid(), model_.grid().spacing_m));
-  return !fit.grid.rows && fit.left_out.empty();
+void ModelInCells<D>::find_cut_tops() {
+  const auto& grid = model_.grid();
+  const auto all = fit_in(grid.spacing_m, {}), own = fit_in(grid.spacing_m, fit_);
+  // Where every horizon lies on faces of the cells as they are, that takes rows that follow in others.
+  if (!grid.rows && !all.grid.rows && all.left_out.empty()) {
+    fit_ = {};
+    return;
+  }
+  tops_cut_cells_ = !grid.rows || !own.left_out.empty();
+  const double low_m = grid.rows ? 0 : grid.origin_m[D - 1], high_m = grid.end(D - 1);
+  const auto columns = corner_columns(covering(grid, grid.spacing_m));
+  for (std::size_t n = 0; n < model_.geology.layers.size(); ++n) {
+    const auto& top = model_.geology.layers[n].top;
+    const bool inside = std::any_of(columns.begin(), columns.end(), [&](const Point<D>& at) {
+      const double depth_m = top.at(at[0], D == 3 ? at[1] : 0);
+      return depth_m > low_m && depth_m < high_m;
+    });
+    if (own.rows[n] >= 0 || !inside) continue;
+    tops_cut_cells_ = true;
+    if (!grid.rows && top.is_plane() && top.shape().dip_deg == 0) level_m_.push_back(top.depth_m() - low_m);
+  }
+}
+
+/// Faces of cells where matter changes its kind, or clusters end.
+template <int D>
+void ModelInCells<D>::find_level_faces() {
+  if (as_built_ && model_.fracture.size() == 0) return;
+  const auto& grid = model_.grid();
+  const auto& medium = model_.medium;
+  const auto kind = [&](std::size_t cell) {
+    const int matter = as_built_ ? 0 : medium.is_void(cell) ? 1 : medium.is_fluid(cell) ? 2 : 3;
+    return std::pair(matter, model_.fracture.size() > 0 ? int(model_.fracture[cell]) : 0);
+  };
+  for (int axis = 0; axis < D; ++axis) {
+    // Rows follow their horizons in all cells.
+    if (grid.rows && axis == D - 1) continue;
+    std::vector<bool> parts(std::size_t(grid.shape[std::size_t(axis)]));
+    for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
+      auto at = grid.index(cell);
+      const auto plane = std::size_t(at[std::size_t(axis)]);
+      if (plane == 0 || parts[plane]) continue;
+      --at[std::size_t(axis)];
+      parts[plane] = kind(std::size_t(cell)) != kind(std::size_t(grid.flat(at)));
+    }
+    for (std::size_t plane = 0; plane < parts.size(); ++plane)
+      if (parts[plane]) level_m_.push_back(double(plane) * grid.spacing_m);
+  }
+}
+
+template <int D>
+double ModelInCells<D>::lie_otherwise(double own_m, double other_m) const {
+  double most = 0;
+  for (const double at_m : level_m_) {
+    const double cells = at_m / own_m - at_m / other_m;
+    most = std::max(most, std::abs(cells - std::round(cells)));
+  }
+  return most;
 }
 
 template <int D>
 std::size_t ModelInCells<D>::left_out(double spacing_m) const {
-  if (!as_built_) return 0;
+  return as_built_ ? fit_in(spacing_m, fit_).left_out.size() : 0;
+}
+
+template <int D>
+Fit<D> ModelInCells<D>::fit_in(double spacing_m, const FitChoice& choice) const {
   auto geology = model_.geology;
-  geology.fit = fit_;
-  return fit_of(geology, covering(model_.grid(), spacing_m)).left_out.size();
+  geology.fit = choice;
+  return fit_of(geology, covering(model_.grid(), spacing_m));
 }
 
 /// What was changed in all cells that were built is changed again.

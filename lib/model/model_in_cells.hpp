@@ -30,9 +30,14 @@ class ModelInCells {
   bool could_be_fitted() const;
   /// How many horizons rows of other cells can not follow, though they were to; 0 where nothing is known.
   std::size_t left_out(double spacing_m) const;
-  /// Whether horizons cut cells, which no rows follow: where they do so differs from size to size, and no
-  /// more than first order is kept.
+  /// Whether horizons cut cells, which no rows follow or which these leave out: where they do so differs from
+  /// size to size, and no more than first order is kept.
   bool tops_cut_cells() const { return tops_cut_cells_; }
+  /// How otherwise level horizons lie in cells of another size, as the part of a cell, 1/2 at most: 0 where
+  /// all of them cut cells as they do in those of `own_m`, or lie on faces in both. They are the tops that no
+  /// rows follow; in models without their geometry, wherever fluid, solid and void part, and edges of
+  /// clusters.
+  double lie_otherwise(double own_m, double other_m) const;
   /// Throws a usage Error where the size is not above zero or the model would not fit the memory, an Error as
   /// regridded() where a fitted grid cannot be made anew.
   Model<D> of(double spacing_m) const;
@@ -40,7 +45,10 @@ class ModelInCells {
   Model<D> fitted(double spacing_m) const;
 
  private:
-  bool on_faces() const;
+  Fit<D> fit_in(double spacing_m, const FitChoice& choice) const;
+  void find_geology();
+  void find_cut_tops();
+  void find_level_faces();
   Medium<D> medium_of_geology(double spacing_m, const FitChoice& choice) const;
   Model<D> of_cells(double spacing_m) const;
   Model<D> with_medium(Medium<D> medium) const;
@@ -50,6 +58,7 @@ class ModelInCells {
   FitChoice fit_;                    // which horizons rows of other cells follow
   std::vector<Property> taken_out_;  // of what was built
   bool as_built_ = false, tops_cut_cells_ = false;
+  std::vector<double> level_m_;  // where level horizons are, from the low corner along their axis
 };
 
 /// ModelInCells::of(), once.

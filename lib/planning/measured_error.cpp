@@ -14,9 +14,11 @@ namespace slipwave {
 namespace {
 
 /// The ratio of sizes: the first that the scene holds. Halves again are the second.
-constexpr double first_ratios[] = {1.5, 1.4, 1.6, 1.3, 1.75, 1.25};
-constexpr double second_ratios[] = {2.25, 2.1, 2.4, 2., 2.6, 1.85};
+constexpr double first_ratios[] = {1.5, 1.4, 1.6, 1.75, 4. / 3, 1.25, 2};
+constexpr double second_ratios[] = {2.25, 2.1, 2.4, 2, 2.6, 1.85, 3};
 constexpr double finer_ratios[] = {1 / 1.5, 1 / 1.4, 1 / 1.75, 0.5};
+/// Each may be another by so many times one part in so many, where horizons lie rather alike.
+constexpr int parts_around = 10, parts_of_a_ratio = 200;
 /// Sizes that differ by less tell nothing of an order.
 constexpr double least_apart = 1.15;
 
@@ -26,6 +28,29 @@ bool any_absorbing(const Scene<D>& scene) {
     for (const int side : {0, 1})
       if (scene.edges[axis][side] == EdgeLaw::absorbing) return true;
   return false;
+}
+
+/// The ratios, each moved to where level horizons lie in cells as they do in those of the setting; those in
+/// which they do so to a tenth of a cell come before those to two tenths, and so on.
+template <int D>
+std::vector<double> alike(const SceneRuns<D>& runs, const AccuracySetting& setting,
+                          std::span<const double> ratios) {
+  constexpr double alike_cells = 0.1;
+  std::vector<std::pair<int, double>> moved;
+  for (const double ratio : ratios) {
+    double best = ratio, least = runs.lie_otherwise(setting, ratio);
+    for (int n = 1; n <= 2 * parts_around; ++n) {
+      const double part = double((n + 1) / 2) / parts_of_a_ratio;
+      const double other = ratio * (1 + (n % 2 ? part : -part));
+      const double otherwise = runs.lie_otherwise(setting, other);
+      if (otherwise < least - 1e-9) best = other, least = otherwise;
+    }
+    moved.emplace_back(int(least / alike_cells), best);
+  }
+  std::stable_sort(moved.begin(), moved.end(), [](auto a, auto b) { return a.first < b.first; });
+  std::vector<double> sorted;
+  for (const auto& [steps, ratio] : moved) sorted.push_back(ratio);
+  return sorted;
 }
 
 template <int D>
@@ -62,7 +87,7 @@ template <int D>
 std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const AccuracySetting& setting) {
   std::vector<AccuracySetting> others;
   const auto add = [&](std::span<const double> ratios, Places places) {
-    for (const double ratio : ratios) {
+    for (const double ratio : alike(runs, setting, ratios)) {
       const auto other = runs.resized(setting, ratio, places);
       if (!other) continue;
       const bool apart = std::all_of(others.begin(), others.end(), [&](const AccuracySetting& one) {
@@ -123,7 +148,7 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   const auto& found = *sizes.front().traces;
   if (!what.itself && of_cells.error > 0) {
     const double smaller = std::pow(setting.spacing_m / sizes[0].spacing_m, of_cells.order);
-    measured.by_cells = std::hypot(of_cells.share * derived(setting), of_cells.rest * smaller);
+    measured.by_cells = of_cells.share * derived(setting) + of_cells.rest * smaller;
     measured.wrong = sum_of(measured.wrong, measured.wrong, measured.by_cells / of_cells.error - 1);
   }
   measured.by_edges = std::numeric_limits<double>::quiet_NaN();

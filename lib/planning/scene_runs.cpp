@@ -177,6 +177,12 @@ std::optional<AccuracySetting> SceneRuns<D>::resized(const AccuracySetting& sett
 }
 
 template <int D>
+double SceneRuns<D>::lie_otherwise(const AccuracySetting& setting, double ratio) const {
+  const auto spacing_m = possible_m(ratio * setting.spacing_m);
+  return model_.lie_otherwise(setting.spacing_m, spacing_m.value_or(ratio * setting.spacing_m));
+}
+
+template <int D>
 double SceneRuns<D>::seconds() const {
   double sum = 0;
   for (const auto& run : runs_) sum += run.seconds;

@@ -71,6 +71,8 @@ class SceneRuns {
   /// The setting with cells some `ratio` times as large, held(), and all lengths as they are.
   std::optional<AccuracySetting> resized(const AccuracySetting& setting, double ratio,
                                          Places places = Places::in_the_same_matter) const;
+  /// How otherwise level horizons lie in cells some `ratio` times as large (ModelInCells::lie_otherwise()).
+  double lie_otherwise(const AccuracySetting& setting, double ratio) const;
   /// Width of the absorbing layers, in cells.
   int zone_of(const AccuracySetting& setting) const;
   /// The processor time of all runs so far, s.

@@ -108,13 +108,13 @@ void print_plan(const Scene<D>& scene, const ShootingOptions& options, const Mes
 template <int D>
 std::string result_in_words(const Scene<D>& scene) {
   const auto shots = scene.survey.sources.size();
-  std::string words = std::to_string(shots) + (shots == 1 ? " shot, " : " shots, ");
   const DirectWaves<D> waves(scene);
-  const auto& numerics = scene.numerics;
-  const double error =
-      waves.together({numerics.order, numerics.cfl, scene.model.grid().spacing_m, numerics.time_order});
-  words += "expected error " + shown(100 * error, 2) + " % in direct arrivals, ";
-  return words;
+  const auto cells = discretisation_of(scene);
+  const auto error = waves.error(cells);
+  return std::to_string(shots) + (shots == 1 ? " shot, " : " shots, ") +
+         (error.p || error.s
+              ? "expected error " + shown(100 * waves.together(cells), 2) + " % in direct arrivals, "
+              : "no direct wave arrives, ");
 }
 
 template <int D>

@@ -21,7 +21,7 @@
 namespace slipwave::solver {
 
 /// A stack of parallel layers (LayerStack) at any dip as a scene: level and dipping ones as sw-layers makes
-/// them, with the history that it writes; upright ones cell by cell.
+/// them, with the geology that it stores; upright ones cell by cell.
 struct StackScene {
   std::string name;
   std::vector<Rock> rocks;           // by increasing b
@@ -130,11 +130,8 @@ struct StackScene {
   std::int64_t cells(double high_m) const { return std::int64_t(std::ceil((high_m + margin_m) / spacing_m)); }
   Model<2> layered() const {
     const auto from = origin();
-    std::ostringstream command;
-    command.precision(17);
-    command << "sw-layers --size " << double(shape()[0]) * spacing_m << 'x' << double(shape()[1]) * spacing_m
-            << " --step " << spacing_m << " --average isotropic" << (fitted ? "" : " --fit none");
-    std::vector<Layer> layers;
+    Geology geology{.maker = Maker::sw_layers, .average = Average::isotropic};
+    if (!fitted) geology.fit = parse_fit("none");
     for (std::size_t n = 0; n < rocks.size(); ++n) {
       const bool above_all = n == 0 && !free_surface;
       const double face = free_surface ? faces_m[n] : n == 0 ? 0 : faces_m[n - 1];
@@ -145,15 +142,11 @@ struct StackScene {
       if (!qualities.empty() && std::isfinite(qualities[n][0]))
         text << " qp=" << qualities[n][0]
              << (rocks[n].vs > 0 ? " qs=" + std::to_string(qualities[n][1]) : "");
-      layers.push_back(parse_layer(text.str()));
-      command << " --layer '" << text.str() << '\'';
+      geology.layers.push_back(parse_layer(text.str()));
     }
-    FitChoice choice;
-    if (!fitted) choice = parse_fit("none");
     Model<2> model;
-    const auto fit = fit_layers<2>({shape(), spacing_m, {0, 0}}, layers, choice);
-    model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
-    model.history = command.str();
+    model.medium = medium_of<2>(geology, {shape(), spacing_m, {0, 0}});
+    model.geology = std::move(geology);
     return model;
   }
   Model<2> upright() const {
