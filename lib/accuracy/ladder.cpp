@@ -111,6 +111,12 @@ GatherError size_of_error(const std::vector<Gather>& wrong, const std::vector<Ga
   error.whole = largest(whole).second;
   error.late = largest(late).second;
   for (auto& [component, share] : error.components) share = components[component].relative();
+  // What is below the rounding of all others was not recorded at all.
+  constexpr double rounding = std::numeric_limits<float>::epsilon();
+  std::erase_if(receivers, [&](const auto& entry) {
+    const double all = whole[std::get<2>(entry.first)].all;
+    return all > 0 && entry.second.all <= rounding * rounding * all;
+  });
   const auto [place, worst] = largest(receivers);
   error.worst = worst;
   error.worst_shot = std::get<0>(place);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <list>
 #include <span>
 
 #include "accuracy/sizes.hpp"
@@ -81,6 +82,53 @@ void add_sensitivities(SceneRuns<D>& runs, const AccuracySetting& coarse, const 
   }
 }
 
+/// Channels of a shot that stand in the cells that its sources are spread over.
+template <int D>
+std::vector<bool> beside_sources(const Survey<D>& survey, std::size_t shot, double spacing_m) {
+  const auto receivers = survey.receivers_of(shot);
+  std::vector<bool> beside(receivers.size());
+  for (const auto* source : survey.sources_of(shot)) {
+    if (!point_injection(*source)) continue;
+    for (std::size_t n = 0; n < receivers.size(); ++n) {
+      double squared = 0;
+      for (std::size_t axis = 0; axis < D; ++axis)
+        squared += std::pow(receivers[n].point_m[axis] - source->position_m[axis], 2);
+      if (squared < std::pow(cells_of_a_source * spacing_m, 2)) beside[n] = true;
+    }
+  }
+  return beside;
+}
+
+/// The traces observed with a setting, without those beside sources.
+class Compared {
+ public:
+  template <int D>
+  Compared(const SceneRuns<D>& runs, double spacing_m) {
+    for (const auto shot : runs.observed().shots) {
+      channels_.push_back(beside_sources(runs.scene().survey, shot, spacing_m));
+      count_ += std::size_t(std::count(channels_.back().begin(), channels_.back().end(), true));
+    }
+  }
+  std::size_t left_out() const { return count_; }
+  /// Kept until the end of this.
+  const std::vector<Gather>& of(const SceneRun& run) {
+    if (count_ == 0) return run.observed;
+    auto& gathers = silenced_.emplace_back(run.observed);
+    for (std::size_t shot = 0; shot < gathers.size(); ++shot)
+      for (auto& trace : gathers[shot].traces) {
+        const auto n = std::size_t(trace.header.channel - 1);
+        if (n < channels_[shot].size() && channels_[shot][n])
+          std::fill(trace.samples.begin(), trace.samples.end(), 0);
+      }
+    return gathers;
+  }
+
+ private:
+  std::vector<std::vector<bool>> channels_;
+  std::size_t count_ = 0;
+  std::list<std::vector<Gather>> silenced_;
+};
+
 }  // namespace
 
 template <int D>
@@ -111,11 +159,10 @@ std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const Accurac
 }
 
 template <int D>
-std::vector<Gather> change_by_edges(SceneRuns<D>& runs, const AccuracySetting& setting) {
-  if (!any_absorbing(runs.scene())) return {};
-  auto wider = setting;
-  wider.zone_cells = 2 * runs.zone_of(setting);
-  return sum_of(runs.run(setting).observed, runs.run(wider).observed, -1);
+std::optional<AccuracySetting> with_wider_edges(const SceneRuns<D>& runs, AccuracySetting setting) {
+  if (!any_absorbing(runs.scene())) return std::nullopt;
+  setting.zone_cells = 2 * runs.zone_of(setting);
+  return setting;
 }
 
 template <int D>
@@ -131,9 +178,11 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   const auto derived = [&](const AccuracySetting& of) {
     return runs.observed().response ? 0. : runs.direct().together(runs.discretisation_of(of));
   };
+  Compared compared(runs, setting.spacing_m);
+  measured.beside_source = compared.left_out();
   std::vector<SizedTraces> sizes;
   for (const auto& one : settings) {
-    sizes.push_back({one.spacing_m, &runs.run(one).observed, derived(one)});
+    sizes.push_back({one.spacing_m, &compared.of(runs.run(one)), derived(one)});
     if (!(one == setting)) measured.others_m.push_back(one.spacing_m);
   }
   if (sizes.size() < 2)
@@ -153,8 +202,10 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   }
   measured.by_edges = std::numeric_limits<double>::quiet_NaN();
   if (what.edges)
-    if (const auto by_edges = change_by_edges(runs, coarsest); !by_edges.empty()) {
-      measured.by_edges = size_of_error(by_edges, runs.run(coarsest).observed).whole;
+    if (const auto wider = with_wider_edges(runs, coarsest)) {
+      const auto& own = *sizes.back().traces;
+      const auto by_edges = sum_of(own, compared.of(runs.run(*wider)), -1);
+      measured.by_edges = size_of_error(by_edges, own).whole;
       measured.wrong = sum_of(std::move(measured.wrong), by_edges, 1);
       measured.sensitivities.push_back({"edges twice as wide",
                                         "--edge-width " + std::to_string(2 * runs.zone_of(setting)),
@@ -218,8 +269,8 @@ std::string sentence_of(const MeasuredError& measured, const SceneRuns<D>& runs)
 
 template std::vector<AccuracySetting> other_sizes(const SceneRuns<2>&, const AccuracySetting&);
 template std::vector<AccuracySetting> other_sizes(const SceneRuns<3>&, const AccuracySetting&);
-template std::vector<Gather> change_by_edges(SceneRuns<2>&, const AccuracySetting&);
-template std::vector<Gather> change_by_edges(SceneRuns<3>&, const AccuracySetting&);
+template std::optional<AccuracySetting> with_wider_edges(const SceneRuns<2>&, AccuracySetting);
+template std::optional<AccuracySetting> with_wider_edges(const SceneRuns<3>&, AccuracySetting);
 template MeasuredError measured_error(SceneRuns<2>&, const AccuracySetting&, const Measured&);
 template MeasuredError measured_error(SceneRuns<3>&, const AccuracySetting&, const Measured&);
 template std::vector<std::size_t> representative_shots(const Survey<2>&);

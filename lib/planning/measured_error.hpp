@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "planning/scene_runs.hpp"
 
 namespace slipwave {
+
+/// A point source is spread over so many cells on either side (theory/sources.md, (A1)): nearer to it,
+/// receivers record what it is spread like, and runs in other cells tell nothing of their error. They are
+/// left out of it.
+constexpr int cells_of_a_source = 4;
 
 /// What moves the traces when it alone is changed, whatever the size of the cells.
 struct Sensitivity {
@@ -25,10 +31,11 @@ struct MeasuredError {
   double by_cells = 0;           // of that, what smaller cells cure
   double by_edges = 0;           // what wider edges change; NaN where there are none
   std::vector<Sensitivity> sensitivities;
-  std::vector<Gather> wrong;  // with the traces, of the shots observed: found less exact
-  bool extrapolated = false;  // from larger cells alone: the setting itself was not run
-  double run_s = 0;           // processor time of the setting itself
-  double measuring_s = 0;     // of all other runs
+  std::vector<Gather> wrong;      // with the traces, of the shots observed: found less exact
+  std::size_t beside_source = 0;  // receivers left out (cells_of_a_source)
+  bool extrapolated = false;      // from larger cells alone: the setting itself was not run
+  double run_s = 0;               // processor time of the setting itself
+  double measuring_s = 0;         // of all other runs
 };
 
 /// What is measured beside the size of cells.
@@ -49,9 +56,9 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
 template <int D>
 std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const AccuracySetting& setting);
 
-/// The same setting with edges twice as wide, and what that changes; nothing where there are no such edges.
+/// The same setting with edges twice as wide; nothing where there are no such edges.
 template <int D>
-std::vector<Gather> change_by_edges(SceneRuns<D>& runs, const AccuracySetting& setting);
+std::optional<AccuracySetting> with_wider_edges(const SceneRuns<D>& runs, AccuracySetting setting);
 
 /// Those of a survey's shots that are measured: all of few, else the two that are farthest apart and, of
 /// many, the one farthest from both; what differs in kind or wavelet is farther than all places.

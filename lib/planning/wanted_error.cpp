@@ -19,6 +19,8 @@ namespace {
 constexpr double aim = 0.85;
 /// So often is a setting run and another one chosen; most of these runs are far cheaper than the last.
 constexpr int most_runs = 8;
+/// Traces that so many settings one after the other did not better are not bettered by cells.
+constexpr int most_worse = 2;
 /// An error above this no longer falls with a power of the cells: waves arrive a twentieth of a period late.
 constexpr double all_wrong = 0.3;
 /// What is known in some cells is not taken further than to cells as much smaller as it was measured in
@@ -56,8 +58,13 @@ class Search {
       widen_after(measured);
       all_run_.push_back(*setting);
       const double found = measured.error.whole;
+      worse_ = better ? 0 : worse_ + 1;
       if (better) best_ = std::move(measured);
       if (found <= wanted_) break;
+      if (worse_ == most_worse) {
+        reason_ = "other cells were no better " + std::to_string(most_worse) + " times";
+        break;
+      }
       if (best_->by_cells > wanted_) known_.largest_m = best_->setting.spacing_m;
       say_(name_of(*setting, runs_.scene()) + ": measured error " + shown(100 * found, 2) + " %, wanted " +
            shown(100 * wanted_, 2) + " %; smaller cells are next");
@@ -158,10 +165,11 @@ class Search {
     auto wide = other_sizes(runs_, setting).back();
     int zone = runs_.zone_of(setting);
     for (int n = 0; n < most_doublings; ++n) {
-      const auto change = change_by_edges(runs_, wide);
-      if (change.empty() || size_of_error(change, runs_.run(wide).observed).whole < edge_share * wanted_)
+      const auto wider = with_wider_edges(runs_, wide);
+      if (!wider ||
+          gather_error(runs_.run(*wider).observed, runs_.run(wide).observed).whole < edge_share * wanted_)
         break;
-      wide.zone_cells = 2 * runs_.zone_of(wide);
+      wide = *wider;
       zone *= 2;
       zone_ = zone;
     }
@@ -193,6 +201,7 @@ class Search {
   SettingSearch<D> settings_;
   int zone_ = 0;  // of edges, cells; 0: as they are
   bool edges_seen_ = false;
+  int worse_ = 0;             // than the best, the last ones
   bool edges_alone_ = false;  // keep the error above what is wanted
   double seconds_per_cost_ = 0;
   std::optional<MeasuredError> best_;

@@ -147,10 +147,21 @@ template <int D>
 void say(const MeasuredError& measured, const SceneRuns<D>& runs, double all_s, const Messages& messages) {
   messages.say(name_of(measured.setting, runs.scene()) + ": " + line_of(measured, runs));
   for (const auto& sentence : remedies_of(measured)) messages.say(sentence);
+  if (measured.beside_source > 0)
+    messages.warn(
+        std::to_string(measured.beside_source) + " receivers of these shots stand within " +
+        std::to_string(cells_of_a_source) +
+        " cells of a source, in the cells that it is spread over: their traces show no wave and are "
+        "left out of the error");
   const double extra = measured.run_s > 0 ? (all_s - measured.run_s) / measured.run_s : 0;
   messages.say("knowing it took " + shown(all_s - measured.run_s, 2) + " s of processor time, " +
                shown(100 * extra, 2) + " % of the " + shown(measured.run_s, 2) +
                " s of the shots that it was measured on");
+  const auto &all = runs.scene().survey.sources, &shots = runs.observed().shots;
+  if (all.size() > shots.size())
+    messages.say("the other " + std::to_string(all.size() - shots.size()) + " shots will take about " +
+                 shown(measured.run_s / double(shots.size()) * double(all.size() - shots.size()), 2) +
+                 " s of processor time");
 }
 
 /// Names that can not be written cost no computing.
