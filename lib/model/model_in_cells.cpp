@@ -88,15 +88,14 @@ void ModelInCells<D>::find_cut_tops() {
   }
 }
 
-/// Faces of cells where matter changes its kind, or clusters end.
+/// Faces of cells where matter changes its kind.
 template <int D>
 void ModelInCells<D>::find_level_faces() {
-  if (as_built_ && model_.fracture.size() == 0) return;
+  if (as_built_) return;
   const auto& grid = model_.grid();
   const auto& medium = model_.medium;
   const auto kind = [&](std::size_t cell) {
-    const int matter = as_built_ ? 0 : medium.is_void(cell) ? 1 : medium.is_fluid(cell) ? 2 : 3;
-    return std::pair(matter, model_.fracture.size() > 0 ? int(model_.fracture[cell]) : 0);
+    return medium.is_void(cell) ? 0 : medium.is_fluid(cell) ? 1 : 2;
   };
   for (int axis = 0; axis < D; ++axis) {
     // Rows follow their horizons in all cells.

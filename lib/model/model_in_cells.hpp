@@ -35,8 +35,7 @@ class ModelInCells {
   bool tops_cut_cells() const { return tops_cut_cells_; }
   /// How otherwise level horizons lie in cells of another size, as the part of a cell, 1/2 at most: 0 where
   /// all of them cut cells as they do in those of `own_m`, or lie on faces in both. They are the tops that no
-  /// rows follow; in models without their geometry, wherever fluid, solid and void part, and edges of
-  /// clusters.
+  /// rows follow; in models without their geometry, wherever fluid, solid and void part.
   double lie_otherwise(double own_m, double other_m) const;
   /// Throws a usage Error where the size is not above zero or the model would not fit the memory, an Error as
   /// regridded() where a fitted grid cannot be made anew.

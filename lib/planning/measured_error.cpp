@@ -103,11 +103,16 @@ std::vector<bool> beside_sources(const Survey<D>& survey, std::size_t shot, doub
 class Compared {
  public:
   template <int D>
-  Compared(const SceneRuns<D>& runs, double spacing_m) {
+  explicit Compared(const SceneRuns<D>& runs) {
+    const auto& scene = runs.scene();
+    std::size_t all = 0;
     for (const auto shot : runs.observed().shots) {
-      channels_.push_back(beside_sources(runs.scene().survey, shot, spacing_m));
+      channels_.push_back(beside_sources(scene.survey, shot, scene.model.grid().spacing_m));
+      all += channels_.back().size();
       count_ += std::size_t(std::count(channels_.back().begin(), channels_.back().end(), true));
     }
+    // Where there are no others, they are what was asked for.
+    if (count_ == all) count_ = 0;
   }
   std::size_t left_out() const { return count_; }
   /// Kept until the end of this.
@@ -178,7 +183,7 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   const auto derived = [&](const AccuracySetting& of) {
     return runs.observed().response ? 0. : runs.direct().together(runs.discretisation_of(of));
   };
-  Compared compared(runs, setting.spacing_m);
+  Compared compared(runs);
   measured.beside_source = compared.left_out();
   std::vector<SizedTraces> sizes;
   for (const auto& one : settings) {

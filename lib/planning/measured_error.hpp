@@ -10,8 +10,8 @@
 namespace slipwave {
 
 /// A point source is spread over so many cells on either side (theory/sources.md, (A1)): nearer to it,
-/// receivers record what it is spread like, and runs in other cells tell nothing of their error. They are
-/// left out of it.
+/// receivers record what it is spread like, and runs in other cells tell nothing of their error. Those that
+/// near in the cells of the model are left out of it, unless there are no others.
 constexpr int cells_of_a_source = 4;
 
 /// What moves the traces when it alone is changed, whatever the size of the cells.

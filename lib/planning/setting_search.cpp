@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -82,17 +83,29 @@ KnownErrors SettingSearch<D>::explained(std::vector<SettingRun> runs, double res
   const double d = by_dispersion(best), r = by_rest(best);
   const double worst_off =
       std::pow(runs_.direct().latest(runs_.discretisation_of(best.setting)) / best.error, 2);
-  double k = d > 0 ? std::min(1., worst_off) / d : 0;
-  if (runs.size() > 1) {
-    const double other_d = by_dispersion(runs[1]), other_r = by_rest(runs[1]);
-    const double determinant = d * other_r - r * other_d;
-    k = determinant == 0 ? k : std::clamp((other_r - r) / determinant, 0., d > 0 ? 1 / d : 0);
-  }
-  KnownErrors known;
-  known.dispersion = std::sqrt(k);
-  known.rest = std::sqrt(std::max(0., 1 - k * d) / r);
-  known.rest_order = rest_order;
-  return known;
+  const auto known_by = [&](double k) {
+    KnownErrors known;
+    known.dispersion = std::sqrt(k);
+    known.rest = std::sqrt(std::max(0., 1 - k * d) / r);
+    known.rest_order = rest_order;
+    return known;
+  };
+  if (runs.size() == 1) return known_by(d > 0 ? std::min(1., worst_off) / d : 0);
+  // Each two runs have a k; that counts which all of them are nearest to, by factors.
+  const double most = d > 0 ? 1 / d : 0;
+  KnownErrors nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& one : runs)
+    for (const auto& other : runs) {
+      const double determinant = by_dispersion(one) * by_rest(other) - by_rest(one) * by_dispersion(other);
+      const double both = determinant == 0 ? 0 : (by_rest(other) - by_rest(one)) / determinant;
+      // Of the direct waves all of it is there, as far as the error holds it.
+      const auto known = known_by(std::clamp(both, std::min(1., most), most));
+      double away = 0;
+      for (const auto& run : runs) away += std::pow(std::log(expected(run.setting, known) / run.error), 2);
+      if (away < least) nearest = known, least = away;
+    }
+  return nearest;
 }
 
 template <int D>

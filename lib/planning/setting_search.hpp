@@ -37,7 +37,8 @@ class SettingSearch {
   double expected(const AccuracySetting& setting, const KnownErrors& known) const;
   /// What dispersion does to direct waves.
   double dispersion(const AccuracySetting& setting) const;
-  /// What explains the errors of the two best of the runs, error^2 = (k D)^2 + (r h^p)^2 in cells of h; of
+  /// What explains the errors of the runs, error^2 = (k D)^2 + (r h^p)^2 in cells of h: the best one exactly,
+  /// and all of them as well as can be, k being 1 at least as far as no error is less than D; of
   /// one run as dispersion alone, as far as no wave is worse off than the slowest one that travels as long as
   /// the traces last: cells that are too large by that guess are found out when they are run, those that are
   /// too small never.

@@ -58,7 +58,7 @@ class Search {
       widen_after(measured);
       all_run_.push_back(*setting);
       const double found = measured.error.whole;
-      worse_ = better ? 0 : worse_ + 1;
+      worse_ = better || best_->by_cells > all_wrong ? 0 : worse_ + 1;
       if (better) best_ = std::move(measured);
       if (found <= wanted_) break;
       if (worse_ == most_worse) {

@@ -148,11 +148,10 @@ void say(const MeasuredError& measured, const SceneRuns<D>& runs, double all_s, 
   messages.say(name_of(measured.setting, runs.scene()) + ": " + line_of(measured, runs));
   for (const auto& sentence : remedies_of(measured)) messages.say(sentence);
   if (measured.beside_source > 0)
-    messages.warn(
-        std::to_string(measured.beside_source) + " receivers of these shots stand within " +
-        std::to_string(cells_of_a_source) +
-        " cells of a source, in the cells that it is spread over: their traces show no wave and are "
-        "left out of the error");
+    messages.warn(std::to_string(measured.beside_source) + " receivers of these shots stand within " +
+                  std::to_string(cells_of_a_source) +
+                  " cells of a source, in the cells that it is spread over: their traces are "
+                  "left out of the error");
   const double extra = measured.run_s > 0 ? (all_s - measured.run_s) / measured.run_s : 0;
   messages.say("knowing it took " + shown(all_s - measured.run_s, 2) + " s of processor time, " +
                shown(100 * extra, 2) + " % of the " + shown(measured.run_s, 2) +
@@ -226,7 +225,6 @@ void shoot_measured(const Scene<D>& scene, const ShootingOptions& options, const
     out.commit();
   }
   const auto chosen = runs.scene_of(measured.setting);
-  for (const auto& sentence : warnings(chosen)) messages.warn(sentence);
   SurveyRun<D> survey(chosen, output, own, messages, nullptr);
   // Snapshots and diaries want the shot again.
   const bool again = !output.snapshots.empty() || chosen.slip_diary;
