@@ -82,21 +82,21 @@ void add_sensitivities(SceneRuns<D>& runs, const AccuracySetting& coarse, const 
   }
 }
 
-/// Channels of a shot that stand in the cells that its sources are spread over.
+/// How near the receivers of a shot are to its sources.
 template <int D>
-std::vector<bool> beside_sources(const Survey<D>& survey, std::size_t shot, double spacing_m) {
+std::vector<double> away_from_sources_m(const Survey<D>& survey, std::size_t shot) {
   const auto receivers = survey.receivers_of(shot);
-  std::vector<bool> beside(receivers.size());
+  std::vector<double> away(receivers.size(), std::numeric_limits<double>::infinity());
   for (const auto* source : survey.sources_of(shot)) {
     if (!point_injection(*source)) continue;
     for (std::size_t n = 0; n < receivers.size(); ++n) {
       double squared = 0;
       for (std::size_t axis = 0; axis < D; ++axis)
         squared += std::pow(receivers[n].point_m[axis] - source->position_m[axis], 2);
-      if (squared < std::pow(cells_of_a_source * spacing_m, 2)) beside[n] = true;
+      away[n] = std::min(away[n], std::sqrt(squared));
     }
   }
-  return beside;
+  return away;
 }
 
 /// The traces observed with a setting, without those beside sources.
@@ -107,14 +107,19 @@ class Compared {
     const auto& scene = runs.scene();
     std::size_t all = 0;
     for (const auto shot : runs.observed().shots) {
-      channels_.push_back(beside_sources(scene.survey, shot, scene.model.grid().spacing_m));
-      all += channels_.back().size();
-      count_ += std::size_t(std::count(channels_.back().begin(), channels_.back().end(), true));
+      auto& beside = channels_.emplace_back();
+      for (const double away_m : away_from_sources_m(scene.survey, shot)) {
+        beside.push_back(away_m < cells_of_a_source * scene.model.grid().spacing_m);
+        count_ += beside.back();
+        if (!beside.back()) nearest_m_ = std::min(nearest_m_, away_m);
+      }
+      all += beside.size();
     }
     // Where there are no others, they are what was asked for.
     if (count_ == all) count_ = 0;
   }
   std::size_t left_out() const { return count_; }
+  double nearest_m() const { return nearest_m_; }
   /// Kept until the end of this.
   const std::vector<Gather>& of(const SceneRun& run) {
     if (count_ == 0) return run.observed;
@@ -131,6 +136,7 @@ class Compared {
  private:
   std::vector<std::vector<bool>> channels_;
   std::size_t count_ = 0;
+  double nearest_m_ = std::numeric_limits<double>::infinity();
   std::list<std::vector<Gather>> silenced_;
 };
 
@@ -161,6 +167,11 @@ std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const Accurac
     throw Error("the scene holds no cells of other sizes near " + shown(setting.spacing_m, 4) +
                 " m, in which its error could be measured");
   return others;
+}
+
+template <int D>
+double nearest_receiver_m(const SceneRuns<D>& runs) {
+  return Compared(runs).nearest_m();
 }
 
 template <int D>
@@ -274,7 +285,9 @@ std::string sentence_of(const MeasuredError& measured, const SceneRuns<D>& runs)
 
 template std::vector<AccuracySetting> other_sizes(const SceneRuns<2>&, const AccuracySetting&);
 template std::vector<AccuracySetting> other_sizes(const SceneRuns<3>&, const AccuracySetting&);
+template double nearest_receiver_m(const SceneRuns<2>&);
 template std::optional<AccuracySetting> with_wider_edges(const SceneRuns<2>&, AccuracySetting);
+template double nearest_receiver_m(const SceneRuns<3>&);
 template std::optional<AccuracySetting> with_wider_edges(const SceneRuns<3>&, AccuracySetting);
 template MeasuredError measured_error(SceneRuns<2>&, const AccuracySetting&, const Measured&);
 template MeasuredError measured_error(SceneRuns<3>&, const AccuracySetting&, const Measured&);

@@ -56,6 +56,10 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
 template <int D>
 std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const AccuracySetting& setting);
 
+/// How near a receiver comes to a source, of those that are not left out.
+template <int D>
+double nearest_receiver_m(const SceneRuns<D>& runs);
+
 /// The same setting with edges twice as wide; nothing where there are no such edges.
 template <int D>
 std::optional<AccuracySetting> with_wider_edges(const SceneRuns<D>& runs, AccuracySetting setting);

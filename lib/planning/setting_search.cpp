@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "planning/measured_error.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -51,6 +53,8 @@ SettingSearch<D>::SettingSearch(const SceneRuns<D>& runs, std::function<bool(con
       fits_(std::move(fits)),
       largest_m_(slowest_wave(scene_.model.medium).speed / highest_frequency_hz(scene_.survey) /
                  fewest_cells) {
+  // No receiver may come to stand in the cells that a source is spread over.
+  largest_m_ = std::min(largest_m_, nearest_receiver_m(runs) / cells_of_a_source);
   // The smallest side must stay a model.
   constexpr double fewest_along_a_side = 10;
   const auto& grid = scene_.model.grid();

@@ -17,10 +17,11 @@ namespace {
 /// What is aimed at, of what is wanted: the error is known once the setting has run, and a second run costs
 /// more than cells that are a little smaller.
 constexpr double aim = 0.85;
-/// So often is a setting run and another one chosen; most of these runs are far cheaper than the last.
-constexpr int most_runs = 8;
+/// So many settings are run whose errors tell something, and so many in all; most of these runs are far
+/// cheaper than the last.
+constexpr int most_telling = 8, most_runs = 12;
 /// Traces that so many settings one after the other did not better are not bettered by cells.
-constexpr int most_worse = 2;
+constexpr int most_worse = 3;
 /// An error above this no longer falls with a power of the cells: waves arrive a twentieth of a period late.
 constexpr double all_wrong = 0.3;
 /// What is known in some cells is not taken further than to cells as much smaller as it was measured in
@@ -45,7 +46,8 @@ class Search {
     if (limits_.seconds > 0)
       if (const auto cheap = runs_.resized(setting_of(runs_.scene()), 2.25, Places::anywhere))
         note_time(*cheap);
-    for (int run = 0; run < most_runs; ++run) {
+    int runs = 0, telling = 0;
+    while (runs < most_runs && telling < most_telling) {
       const auto setting = chosen();
       if (!setting) break;
       auto measured = measured_error(runs_, *setting);
@@ -54,12 +56,14 @@ class Search {
       const bool tells = measured.by_cells <= all_wrong;
       misled_ = !better || !tells;
       note_time(measured.setting);
+      ++runs, telling += tells;
+      refute(measured);
       if (tells) learn(measured);
       widen_after(measured);
       all_run_.push_back(*setting);
       const double found = measured.error.whole;
       worse_ = better || best_->by_cells > all_wrong ? 0 : worse_ + 1;
-      if (better) best_ = std::move(measured);
+      if (better || exceeds(measured.setting, best_->setting)) best_ = std::move(measured);
       if (found <= wanted_) break;
       if (worse_ == most_worse) {
         reason_ = "other cells were no better " + std::to_string(most_worse) + " times";
@@ -74,12 +78,24 @@ class Search {
     ReachedError reached{std::move(*best_), false, reason_, 0};
     reached.good = reached.measured.error.whole <= wanted_;
     if (!reached.good && reached.reason.empty())
-      reached.reason = "the search ended after " + std::to_string(most_runs) + " settings";
+      reached.reason = "the search ended after " + std::to_string(runs) + " settings";
     reached.search_s = runs_.seconds() - reached.measured.run_s;
     return reached;
   }
 
  private:
+  /// Whether one setting can not be worse than another.
+  static bool exceeds(const AccuracySetting& one, const AccuracySetting& other) {
+    return one.spacing_m <= other.spacing_m && one.order >= other.order &&
+           one.time_order >= other.time_order &&
+           (one.cfl <= other.cfl || one.time_order > other.time_order) && one.zone_cells >= other.zone_cells;
+  }
+  /// Larger errors of settings that can not be worse show that those of others are not as small as measured.
+  void refute(const MeasuredError& measured) {
+    std::erase_if(tried_, [&](const SettingRun& run) {
+      return exceeds(measured.setting, run.setting) && run.error < measured.by_cells;
+    });
+  }
   double bytes_of(const AccuracySetting& setting) const {
     double ratio = 1;
     const auto& grid = runs_.scene().model.grid();
