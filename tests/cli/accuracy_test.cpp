@@ -186,6 +186,23 @@ TEST_F(Accuracy, OfAShotIsMeasuredAsItIsAndChangesNoTrace) {
       "its own setting");
 }
 
+TEST_F(Accuracy, OfTheLastLineIsThatOfDirectWaves) {
+  const auto last = [&](const std::string& time) {
+    return done("sw-shoot rock.nc --source 300,300 --wavelet ricker:15 --receivers 100:500:100,450 --time " +
+                time + " -v -o last.sgy 2>&1 | tail -1");
+  };
+  const auto plan = done(
+      "sw-shoot rock.nc --source 300,300 --wavelet ricker:15 --receivers 100:500:100,450 "
+      "--time 0.4 --plan --json");
+  const std::string says = "expected error ", planned = "\"dispersion_of_direct_P_waves\": {\"value\": ";
+  const auto some = last("0.4");
+  ASSERT_TRUE(has(some, says)) << some;
+  ASSERT_TRUE(has(plan, planned)) << plan;
+  EXPECT_EQ(number(some.substr(some.find(says) + says.size())),
+            number(plan.substr(plan.find(planned) + planned.size())));
+  EXPECT_TRUE(has(last("0.01"), "no direct wave arrives")) << last("0.01");
+}
+
 TEST_F(Accuracy, OfBadInputIsRefusedInOneLineBeforeAnythingIsRun) {
   const std::string tool = "timeout 60 sw-accuracy m.nc -o t.nc ";
   const std::string endless = "--source 200,200 --wavelet ricker:15 --receivers 150,450 --time 3000 ";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/ladder.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -219,6 +220,38 @@ TEST(RunsOfAScene, HoldNoCellsThatPutReceiversIntoOtherMatter) {
     const auto& medium = coarse.model.medium;
     EXPECT_TRUE(medium.is_fluid(std::size_t(medium.grid().flat(cell_of(medium.grid(), Point<2>{205, 69})))));
   }
+}
+
+TEST(MeasuredErrors, LeaveOutReceiversInTheCellsOfSources) {
+  auto scene = small_scene();
+  const auto measure = [&] {
+    SceneRuns<2> runs(scene, {{1}, false});
+    return measured_error(runs, setting_of(scene));
+  };
+  const auto without = measure();
+  EXPECT_EQ(without.beside_source, 0u);
+  scene.survey.receivers_m.push_back({115, 45});
+  const auto with = measure();
+  EXPECT_EQ(with.beside_source, 1u);
+  for (const auto& trace : with.wrong[0].traces)
+    EXPECT_EQ(std::all_of(trace.samples.begin(), trace.samples.end(), [](double one) { return one == 0; }),
+              trace.header.channel == 3);
+  // They are all that was asked for.
+  scene.survey.receivers_m = {{115, 45}};
+  const auto alone = measure();
+  EXPECT_EQ(alone.beside_source, 0u);
+  EXPECT_GT(alone.error.whole, 0);
+}
+
+TEST(ErrorOfGathers, IsNotWorstWhereNothingArrived) {
+  using enum Component;
+  auto found = gather_of({{vz, {0, 0, 3, 4}}, {vz, {0, 0, 0, 0}}});
+  found.traces[1].header.channel = 2;
+  auto wrong = found;
+  for (auto& trace : wrong.traces) trace.samples = {0, 0, 0, 0.5};
+  const auto error = size_of_error({wrong}, {found});
+  EXPECT_NEAR(error.worst, 0.1, 1e-12);
+  EXPECT_NE(error.worst_channel, 2);
 }
 
 TEST(RepresentativeShots, AreThoseThatDifferMost) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace slipwave {
 namespace {
@@ -57,6 +58,43 @@ TEST(ErrorOfSizes, HasAnOrderBetweenThoseOfItsParts) {
 
 TEST(ErrorOfSizes, IsTakenAsOfFirstOrderWhereThereAreTwo) {
   EXPECT_EQ(measured_in({2, 3}, 0, 0.01).order, 1);
+}
+
+TEST(ErrorOfSizes, IsTheLesserOfTwoBounds) {
+  // Of second order, and of fifth, which is derived, in waves that share nothing.
+  const double second = 0.002, fifth = 0.0003;
+  const auto traces = [&](double h) {
+    Gather gather;
+    gather.traces.resize(1);
+    gather.traces[0].header.component = Component::vz;
+    const auto wave = [](int periods, int n) { return std::sin(2 * std::numbers::pi * periods * n / 100); };
+    for (int n = 0; n < 100; ++n)
+      gather.traces[0].samples.push_back(wave(2, n) + second * h * h * wave(3, n) +
+                                         fifth * std::pow(h, 5) * wave(5, n));
+    return std::vector<Gather>{gather};
+  };
+  std::vector<std::vector<Gather>> all;
+  std::vector<SizedTraces> sizes;
+  const double h = 2, sizes_m[] = {h, 3, 4.5};
+  for (const double size_m : sizes_m) all.push_back(traces(size_m));
+  const double norm = size_of_error(traces(0), all[0]).whole;  // of the exact ones
+  for (std::size_t n = 0; n < 3; ++n)
+    sizes.push_back({sizes_m[n], &all[n], fifth * std::pow(sizes_m[n], 5) * norm});
+  const auto found = error_of_sizes(sizes);
+  EXPECT_NEAR(found.share, 1, 1e-9);
+  EXPECT_NEAR(found.order, 2, 1e-6);
+  EXPECT_NEAR(found.error, (fifth * std::pow(h, 5) + second * h * h) * norm, 1e-9);
+  EXPECT_NEAR(size_of_error(found.wrong, all[0]).whole, found.error, 1e-9);
+  // Nothing known of it: all is taken to be of second order.
+  for (auto& size : sizes) size.derived = 0;
+  const auto blind = error_of_sizes(sizes);
+  EXPECT_EQ(blind.share, 0);
+  EXPECT_NEAR(blind.error, size_of_error(sum_of(all[1], all[0], -1), all[0]).whole / 1.25, 1e-9);
+  EXPECT_GT(blind.error, found.error);
+  // More derived than there is: less of it counts, and no more is wrong than without.
+  for (auto& size : sizes) size.derived = std::pow(size.spacing_m, 5);
+  EXPECT_LT(error_of_sizes(sizes).share, 1);
+  EXPECT_LE(error_of_sizes(sizes).error, blind.error);
 }
 
 TEST(OrderOfSizes, StaysWithinItsBounds) {

@@ -171,6 +171,47 @@ TEST(CellsOfSize, AreFilledFromTheLogItself) {
   }
 }
 
+TEST(CellsOfSize, HoldLevelTopsAsThoseOfTheModelDo) {
+  Geology geology{.maker = Maker::sw_layers, .fit = parse_fit("none")};
+  geology.layers = {parse_layer("0:3000:1500:2200"), parse_layer("103:2000:1000:2000")};
+  const auto model = built<2>(geology, {200, 300}, 10);
+  const ModelInCells in_cells(model);
+  EXPECT_TRUE(in_cells.tops_cut_cells());
+  EXPECT_EQ(in_cells.lie_otherwise(10, 10), 0);
+  // 103 m are 10.3, 6.866... and 6.3 cells.
+  EXPECT_NEAR(in_cells.lie_otherwise(10, 15), 0.3 + 1 - 103. / 15 + 6, 1e-9);
+  EXPECT_NEAR(in_cells.lie_otherwise(10, 103 / 6.3), 0, 1e-9);
+  // Rows that follow do so in all cells, those on faces too.
+  geology.fit = {};
+  const auto fitted = built<2>(geology, {200, 300}, 10);
+  EXPECT_FALSE(ModelInCells(fitted).tops_cut_cells());
+  EXPECT_EQ(ModelInCells(fitted).lie_otherwise(10, 15), 0);
+  geology.fit = parse_fit("none");
+  geology.layers[1] = parse_layer("100:2000:1000:2000");
+  const auto level = built<2>(geology, {200, 300}, 10);
+  EXPECT_FALSE(ModelInCells(level).tops_cut_cells());
+  EXPECT_EQ(ModelInCells(level).lie_otherwise(10, 15), 0);
+}
+
+TEST(CellsOfSize, HoldFacesOfMatterWhereNothingElseIsKnown) {
+  auto model = water_over_rock(grid_of(40, 30, 10), 8);
+  EXPECT_EQ(ModelInCells(model).lie_otherwise(10, 20), 0);
+  EXPECT_NEAR(ModelInCells(model).lie_otherwise(10, 15), 1. / 3, 1e-9);
+  const auto rock = water_over_rock(grid_of(40, 30, 10), 0);
+  EXPECT_EQ(ModelInCells(rock).lie_otherwise(10, 15), 0);
+}
+
+TEST(CellsOfSize, AreCutByTopsThatRowsLeaveOut) {
+  Geology geology{.maker = Maker::sw_layers, .fit = parse_fit("surface")};
+  geology.layers = {parse_layer("20:3000:1500:2200:5"), parse_layer("100:2000:1000:2000:5")};
+  const auto some = built<2>(geology, {200, 300}, 10);
+  ASSERT_TRUE(some.grid().rows);
+  EXPECT_TRUE(ModelInCells(some).tops_cut_cells());
+  geology.fit = {};
+  const auto all = built<2>(geology, {200, 300}, 10);
+  EXPECT_FALSE(ModelInCells(all).tops_cut_cells());
+}
+
 TEST(Geology, OfALogThatIsDamagedIsRefusedWithItsPlace) {
   WellLog log;
   log.depths_m = {1, 3, 5, 7};
