@@ -143,15 +143,16 @@ class Search {
     const auto setting = cheapest();
     return setting && widened_before_runs(*setting) ? cheapest() : setting;
   }
-  /// The best scheme so far, in cells as much smaller as those that its error is measured in are larger; a
-  /// size that was no better is passed by.
+  /// The best scheme so far, in cells as much smaller as those that its error is measured in are larger, or
+  /// less where errors of first order would fall enough; a size that was no better is passed by.
   std::optional<AccuracySetting> smaller_cells() {
     auto setting = best_->setting;
+    const double step = std::min(step_down, best_->error.whole / (aim * wanted_));
     const auto was_run = [&](const AccuracySetting& one) {
       return one.order == setting.order && one.time_order == setting.time_order && one.cfl == setting.cfl &&
-             std::abs(std::log(one.spacing_m / setting.spacing_m)) < std::log(step_down) / 2;
+             std::abs(std::log(one.spacing_m / setting.spacing_m)) < std::log(step) / 2;
     };
-    do setting.spacing_m /= step_down;
+    do setting.spacing_m /= step;
     while (std::any_of(all_run_.begin(), all_run_.end(), was_run));
     setting.zone_cells = zone_;
     return fits(setting) ? std::optional(setting) : std::nullopt;
