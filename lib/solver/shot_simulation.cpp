@@ -12,7 +12,6 @@
 #include "model/attenuation.hpp"
 #include "model/model_zeros.hpp"
 #include "model/tilted_mean.hpp"
-#include "parallel/threads.hpp"
 #include "scene/largest_velocity.hpp"
 #include "scene/surroundings.hpp"
 #include "solver/effect/attenuation.hpp"
@@ -73,16 +72,6 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
   return all;
 }
 
-/// Writes the zeros of the fields, by the threads that will sweep them: make_state() leaves their memory to
-/// what is only there while a shot is built.
-template <int D, class Real>
-void take_memory(State<D, Real>& state) {
-  const auto line = state.layout.stride(1);
-  parallel_for(state.fields.size() / line, 16, [&](std::int64_t begin, std::int64_t end, int) {
-    std::memset(state.fields.data() + begin * line, 0, std::size_t((end - begin) * line) * sizeof(Real));
-  });
-}
-
 /// The computed grid of a shot. Cells that interfaces cut and that slip are isotropic means.
 template <int D>
 Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot) {
@@ -126,7 +115,6 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
   attenuating_.reset();
   release_zeros(scene.model);
   release_freed_memory();
-  take_memory(state_);
   bool changed = false;
   for (auto& effect : effects_) changed |= effect->initialize(state_);
   if (changed) executor_->fields_changed();

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
+#include "base/memory.hpp"
 #include "model/anisotropy.hpp"
 #include "scene/splitting.hpp"
 
@@ -100,7 +102,7 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
       if (other != n) rows *= layout.shape()[std::size_t(other)];
     const auto values = rows * (n == 0 ? axis.low + axis.high : layout.padded_nx());
     axis.memory = Buffer<Real>(values);
-    std::fill(axis.memory.data(), axis.memory.data() + values, Real(0));
+    clear_and_release(std::as_writable_bytes(std::span(axis.memory.data(), std::size_t(values))));
     find_plates(n, domain, ranks);
   }
 }

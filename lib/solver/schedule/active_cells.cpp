@@ -32,16 +32,17 @@ void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns) {
       for (std::int64_t i = 0; i < count; ++i) any |= Bits(bits_of(cells[i]) << 1);  // all but the signs
     }
     active[n] = any != 0;
-    if (any != 0) lines_[std::size_t(line)] = 1;
+    if (any != 0) lines_[std::size_t(line)].add({std::int32_t(n), std::int32_t(n + 1)});
   }
 }
 
 template <int D, class Real>
 void ActiveCells<D, Real>::serialize(Archive& archive) {
   archive.fixed(active_);
-  for (std::size_t line = 0; line < lines_.size(); ++line)
-    lines_[line] =
-        std::memchr(active_.data() + std::int64_t(line) * blocks_, 1, std::size_t(blocks_)) != nullptr;
+  for (std::size_t n = 0; n < active_.size(); ++n) {
+    const auto block = std::int32_t(std::int64_t(n) % blocks_);
+    if (active_[n]) lines_[n / std::size_t(blocks_)].add({block, block + 1});
+  }
 }
 
 template class ActiveCells<2, float>;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstring>
+#include <limits>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -20,22 +20,19 @@ class ActiveCells {
       : state_(state),
         blocks_(state.layout.padded_nx() / block),
         active_(std::size_t(state.layout.lines() * blocks_), 0),
-        lines_(std::size_t(state.layout.lines()), 0) {}
+        lines_(std::size_t(state.layout.lines())) {}
 
-  /// Whether all cells of some lines are zero.
-  bool are_zero(const IndexRange& lines) const {
-    return lines.empty() || !std::memchr(lines_.data() + lines.first, 1, std::size_t(lines.count()));
-  }
-  /// Whether all blocks these columns touch are zero; columns beyond the line do not count.
-  bool is_zero(std::int64_t line, const IndexRange& columns) const {
-    const std::int64_t first = std::max<std::int64_t>(columns.first / block, 0);
-    const std::int64_t last = std::min((columns.last + block - 1) / block, blocks_);
-    return last <= first || !lines_[std::size_t(line)] ||
-           !std::memchr(active_.data() + line * blocks_ + first, 1, std::size_t(last - first));
+  /// From the first to the last of the blocks which these columns touch that may not be zero in any of some
+  /// lines, in cells; columns beyond a line do not count.
+  IndexRange among(const IndexRange& lines, const IndexRange& columns) const {
+    Blocks all;
+    for (auto line = lines.first; line < lines.last; ++line) all.add(lines_[std::size_t(line)]);
+    return {std::max<std::int64_t>(all.first, std::max<std::int64_t>(columns.first, 0) / block) * block,
+            std::min<std::int64_t>(all.last, (columns.last + block - 1) / block) * block};
   }
   /// Marks those blocks of these columns that are no longer zero.
   void mark(std::int64_t line, const IndexRange& columns);
-  std::int64_t memory_bytes() const { return std::int64_t(active_.size() + lines_.size()); }
+  std::int64_t memory_bytes() const { return bytes_of(active_) + bytes_of(lines_); }
   void serialize(Archive& archive);
 
  private:
@@ -43,7 +40,12 @@ class ActiveCells {
   const State<D, Real>& state_;
   std::int64_t blocks_;
   std::vector<char> active_;  // [line][block]
-  std::vector<char> lines_;   // whether any block of a line is
+  /// From the first to the last block of a line that is.
+  struct Blocks {
+    std::int32_t first = std::numeric_limits<std::int32_t>::max(), last = 0;
+    void add(const Blocks& more) { first = std::min(first, more.first), last = std::max(last, more.last); }
+  };
+  std::vector<Blocks> lines_;
 };
 
 }  // namespace slipwave::solver

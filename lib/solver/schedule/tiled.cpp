@@ -25,6 +25,10 @@ constexpr int fetched_together = 24;
 /// Rows of a band, at least. Between bands some rows leave the cache.
 constexpr std::int64_t fewest_band_rows = 32;
 
+IndexRange common(const IndexRange& one, const IndexRange& other) {
+  return {std::max(one.first, other.first), std::min(one.last, other.last)};
+}
+
 template <int D>
 std::int64_t stripe_for(const Layout<D>& layout) {
   if (D == 2) return layout.rows() < FieldRows<D>::count ? stripe_in_fluid : usual_stripe;
@@ -198,6 +202,7 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
   auto& tile = in_progress_[std::size_t(number) % in_progress_.size()];
   if (band == 0) {
     tile.stages = stages(first, last);
+    for (auto& ring : tile.rings) ring.begin();
     const Box all{{0, rows_}, {0, cut_cells_}}, growth = growth_of_a_step();
     for (auto& stage : tile.stages) {
       stage.needed = everywhere_ ? all : step_.needed(stage.time, growth);
@@ -369,6 +374,7 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines,
                                          Ring<Real>& ring, Worker& worker) {
   if constexpr (D == 3) {
+    if (lines.first == 0) ring.begin();
     const auto behind = sweeps_.rows_behind(), flank_rows = surface_rows(1);
     const IndexRange steps{lines.first == 0 ? 0 : lines.first + behind, lines.last + behind};
     // What is beyond the last line is read some steps before that line is advanced.
@@ -380,65 +386,77 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     }
     row -= flank_rows;
     if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
+    if (reached(stage.time, {row - flank_rows, row + flank_rows + 1},
+                {steps.first - behind - 1 - sweeps_.reach(), steps.last}, whole_lines())
+            .empty())
+      return;
     sweeps_.correct_flank_surfaces(row, steps);
     worker.work.time() = {stage.time.step, stage.sweep};
     each_chunk([&](const IndexRange& cells) {
       march(
-          1, {0, 0, row}, steps, cells, stage.fraction, ring, worker,
+          1, {0, 0, row}, steps, stage.fraction, ring, worker,
           [&](const IndexRange& lines_read) {
-            return is_zero(stage.time, {row - flank_rows, row + flank_rows + 1}, lines_read,
-                           read_across(cells));
+            return reached(stage.time, {row - flank_rows, row + flank_rows + 1}, lines_read, cells);
           },
-          [&](std::int64_t step) {
+          [](std::int64_t) {},
+          [&](std::int64_t step, const IndexRange& swept) {
             const auto done = step - behind;
-            if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), cells);
+            if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), swept);
           });
     });
   }
 }
 
-/// Steps of a sweep across of these cells; `end` is called after each.
+/// Steps of a sweep across of the cells reached(rows read), which it may change: `begin` is called before
+/// each that has any, `end` after it.
 template <int D, class Real>
-template <class IsZero, class End>
-void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRange& steps,
-                                   const IndexRange& cells, Real fraction, Ring<Real>& ring, Worker& worker,
-                                   IsZero&& is_zero, End&& end) {
+template <class Reached, class Begin, class End>
+void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRange& steps, Real fraction,
+                                   Ring<Real>& ring, Worker& worker, Reached&& reached, Begin&& begin,
+                                   End&& end) {
   // While nothing is swept what was zero stays so: only what each step reads anew is looked at.
   auto zero_to = std::numeric_limits<std::int64_t>::min();
   for (auto step = steps.first; step < steps.last; ++step) {
     // All that a row depends on, also rows that have been advanced since.
     const auto first = step - sweeps_.rows_behind() - 1 - sweeps_.reach();
-    if (is_zero({std::max(first, zero_to), step + 1})) {
+    const auto swept = reached({std::max(first, zero_to), step + 1});
+    if (swept.empty()) {
       zero_to = step + 1;
-      const auto row = step - sweeps_.reach();
-      if (row >= 0 && !ring.take_zeros(row, cells)) sweeps_.skip(step, cells, ring);
       continue;
     }
     zero_to = std::numeric_limits<std::int64_t>::min();
-    ring.fill(cells);
+    const auto reach = sweeps_.reach();
+    ring.take(step - reach, swept,
+              [&](std::int64_t row, const IndexRange& zeros) { sweeps_.skip(row + reach, zeros, ring); });
     worker.ahead.fetch();
-    sweeps_.across(axis, at, step, cells, fraction, ring, worker.work);
-    end(step);
+    begin(step);
+    sweeps_.across(axis, at, step, swept, fraction, ring, worker.work);
+    end(step, swept);
   }
 }
 
-/// Whether all cells of these rows are zero; lines: in 3-D those of each plane.
+/// Those of some cells, whole blocks, that a sweep may change which reads these rows, in 3-D these lines of
+/// each plane: cells farther from any that is not zero stay so.
 template <int D, class Real>
-bool TiledExecutor<D, Real>::is_zero(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
-                                     const IndexRange& columns) const {
-  if (everywhere_) return false;
+IndexRange TiledExecutor<D, Real>::reached(const StepTime& time, const IndexRange& rows,
+                                           const IndexRange& lines, const IndexRange& cells) const {
+  if (everywhere_) return cells;
   const auto within = [](const IndexRange& some, std::int64_t cells) {
     return IndexRange{std::max<std::int64_t>(some.first, 0), std::min(some.last, cells)};
   };
   const IndexRange all = D == 2 ? IndexRange{0, 1} : within(lines, cut_cells_), of = within(rows, rows_);
+  const IndexRange read{cells.first - read_beside, cells.last + read_beside};
+  IndexRange active{cells.last, cells.first};
   for (auto row = of.first; row < of.last; ++row) {
     const auto first = line_of(row, all.first);
-    if (!step_.any_enters() && active_.are_zero({first, first + all.count()})) continue;
-    for (auto y = all.first; y < all.last; ++y)
-      if (!active_.is_zero(line_of(row, y), columns) || step_.enters(time, line_of(row, y), columns))
-        return false;
+    const auto here = active_.among({first, first + all.count()}, read);
+    if (!here.empty())
+      active = {std::min(active.first, here.first - read_beside),
+                std::max(active.last, here.last + read_beside)};
+    for (auto y = all.first; step_.any_enters() && y < all.last; ++y)
+      if (step_.enters(time, line_of(row, y), read)) return cells;
   }
-  return true;
+  return common(active, cells);
 }
 
 template <int D, class Real>
@@ -469,33 +487,28 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
        step < std::min(needed.first, needed.last); ++step)
     correct(step);
   if constexpr (D == 2) {
-    // All that a row depends on, also rows that have been advanced since.
-    const auto read = [&](std::int64_t step) {
-      return IndexRange{step - behind - 1 - sweeps_.reach(), step + 1};
-    };
-    auto& ring = tile.rings[std::size_t(stage.number)];
-    for (auto step = needed.first; step < needed.last; ++step) {
-      // Corrections are computed a block ahead, and read some cells of the columns beside these.
-      if (is_zero(stage.time, read(step), {}, read_across(columns))) {
-        sweeps_.skip(step, columns, ring);
-        continue;
-      }
-      correct(step);
-      sweeps_.across(D - 1, {}, step, columns, stage.fraction, ring, worker.work);
-      end_across_z(stage, step, 0, columns, worker);
-    }
+    march(
+        D - 1, {}, needed, stage.fraction, tile.rings[std::size_t(stage.number)], worker,
+        [&](const IndexRange& rows_read) { return reached(stage.time, rows_read, {}, columns); }, correct,
+        [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, 0, swept, worker); });
   } else {
+    const auto beyond = 2 * free_surface_reach;  // of corrections of lines beside these
+    if (reached(stage.time, {needed.first - behind - 1 - sweeps_.reach(), needed.last},
+                {columns.first - beyond, columns.last + beyond}, whole_lines())
+            .empty())
+      return;
     // All of these rows are as they were before the sweep, whatever has been swept below them.
     for (auto step = needed.first; step < needed.last; ++step) correct(step);
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = tile.rings[std::size_t(stage.number * cut_cells_ + y)];
       each_chunk([&](const IndexRange& cells) {
         march(
-            D - 1, {0, y, 0}, needed, cells, stage.fraction, ring, worker,
+            D - 1, {0, y, 0}, needed, stage.fraction, ring, worker,
             [&](const IndexRange& rows_read) {
-              return is_zero(stage.time, rows_read, with_surface_rows(D - 1, {y, y + 1}), read_across(cells));
+              return reached(stage.time, rows_read, with_surface_rows(D - 1, {y, y + 1}), cells);
             },
-            [&](std::int64_t step) { end_across_z(stage, step, y, cells, worker); });
+            [](std::int64_t) {},
+            [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, y, swept, worker); });
       });
     }
   }
@@ -518,16 +531,19 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::along_x(const StepTime& time, std::int64_t line, const IndexRange& columns,
                                      Real fraction, StripeBoundary<Real>& boundary, Worker& worker,
                                      bool begins) {
-  constexpr auto reach = 2 * Sweeps<D, Real>::lag;
+  // In 2-D the next stripe continues what is found of the cells before it.
+  constexpr auto more = D == 2 ? Sweeps<D, Real>::lag : 0;
   const auto at = layout_.line_index(line);
   const auto row = at[D - 1], y = at[D - 2];
-  if (is_zero(time, with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
-              {columns.first - reach, columns.last + reach})) {
+  auto swept = reached(time, with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
+                       {columns.first - more, columns.last + more});
+  if (swept.empty()) {
     if (columns.count() < layout_.shape()[0]) boundary = {};  // nothing continues a whole line
     return;
   }
-  sweeps_.along_x(line, columns, fraction, boundary, worker.work, begins);
-  mark_active(line, columns);
+  if (D == 2) swept = columns;
+  sweeps_.along_x(line, swept, fraction, boundary, worker.work, begins || swept.first > columns.first);
+  mark_active(line, swept);
 }
 
 template <int D, class Real>
@@ -543,7 +559,8 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
   const auto effects = [&](auto&& apply) {
     const bool injects = step_.injects(time, line);
     // They do nothing in rock at rest.
-    if (!injects && is_zero(time, {at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
+    if (!injects && reached(time, {at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first).empty())
+      return;
     apply();
     if (injects) mark_active(line, first);
   };
@@ -579,14 +596,6 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
   }
   if (copy) put_patches(second, *copy);
 }
-
-namespace {
-
-IndexRange common(const IndexRange& one, const IndexRange& other) {
-  return {std::max(one.first, other.first), std::min(one.last, other.last)};
-}
-
-}  // namespace
 
 template <int D, class Real>
 void TiledExecutor<D, Real>::make_patch_memory() {
@@ -625,8 +634,9 @@ std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Sta
   if (!patches_reach(line, {second.first, first.last + beyond})) return std::nullopt;
   const auto patches = step_.patches().of(line);
   const auto at = layout_.line_index(line);
-  if (is_zero(stage.time, {at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
-              {second.first - behind, first.last + beyond})) {
+  if (reached(stage.time, {at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
+              {second.first - behind, first.last + beyond})
+          .empty()) {
     const auto fields = state_.row_fields(line);
     for (const auto& patch : patches) read_patch(stage, patch, first, fields);
     // The next stripe may begin anew: it would continue from zeros.

@@ -107,12 +107,12 @@ class TiledExecutor : public Executor {
                Worker& worker);
   void end_across_z(const Stage& stage, std::int64_t step, std::int64_t y, const IndexRange& cells,
                     Worker& worker);
-  template <class IsZero, class End>
-  void march(int axis, const Index<D>& at, const IndexRange& steps, const IndexRange& cells, Real fraction,
-             Ring<Real>& ring, Worker& worker, IsZero&& is_zero, End&& end);
+  template <class Reached, class Begin, class End>
+  void march(int axis, const Index<D>& at, const IndexRange& steps, Real fraction, Ring<Real>& ring,
+             Worker& worker, Reached&& reached, Begin&& begin, End&& end);
   void refresh(const IndexRange& rows);
-  bool is_zero(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
-               const IndexRange& columns) const;
+  IndexRange reached(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
+                     const IndexRange& cells) const;
   void mark_active(std::int64_t line, const IndexRange& columns);
   std::int64_t boundaries_per_sweep() const;
   void end_of_step(const Stage& stage, std::int64_t line, const IndexRange& first, const IndexRange& second,
@@ -148,10 +148,9 @@ class TiledExecutor : public Executor {
     for (std::int64_t first = 0; first < layout_.shape()[0]; first += chunk_)
       what(IndexRange{first, std::min(first + chunk_, layout_.shape()[0])});
   }
-  /// Those whose fields a sweep across of these reads, corrections of free surfaces included.
-  static IndexRange read_across(const IndexRange& cells) {
-    return {cells.first - Layout<D>::block, cells.last + Layout<D>::block + free_surface_reach};
-  }
+  /// Those beside cells that a sweep of these reads, corrections of free surfaces included: at most a block.
+  static constexpr std::int64_t read_beside = Layout<D>::block;
+  static_assert(max_reach + 1 + free_surface_reach <= read_beside);
   /// How far sweeps along an axis must stay behind what its free surfaces read.
   std::int64_t surface_rows(int axis) const {
     return sweeps_.corrects_surface(axis) ? free_surface_reach : 0;

@@ -62,8 +62,7 @@ void clear(Buffer<Real>& buffer, std::int64_t piece) {
   });
 }
 
-/// Zeros that take memory once they are written, which the fields are when all is built that needs more while
-/// it is built.
+/// Zeros that take memory where waves come to: what threads write first lies near them.
 template <class Real>
 void clear_untouched(Buffer<Real>& buffer) {
   clear_and_release(std::as_writable_bytes(std::span(buffer.data(), std::size_t(buffer.size()))));

@@ -32,7 +32,7 @@ class Ring {
         face_rows_(face_rows),
         pairs_(pairs),
         values_(pitch_ * 2 * pairs * (outgoing_rows + face_rows)),
-        zeros_(std::size_t(width / gap + 1)) {
+        last_(std::size_t(width / gap + 1), before_all) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
   /// From column x on, of row -1 or a later one.
@@ -47,17 +47,20 @@ class Ring {
   int pairs() const { return pairs_; }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
-  /// Whether zeros for a row in these columns are in the ring already: those of all rows before it that the
-  /// ring holds have been put there one by one since the columns were filled. Pieces of columns begin blocks
-  /// apart and do not overlap.
-  bool take_zeros(std::int64_t row, const IndexRange& columns) {
-    auto& zeros = zeros_[std::size_t((columns.first - first_) / gap)];
-    const bool goes_on = zeros.next_row == row && zeros.last_column == columns.last;
-    zeros = {row + 1, columns.last, goes_on ? zeros.rows + 1 : 1};
-    return zeros.rows > std::max(outgoing_rows_, face_rows_);
+  /// A sweep begins: what the ring holds is of another one.
+  void begin() { std::fill(last_.begin(), last_.end(), before_all); }
+  /// A row is about to be put into these columns, whole blocks. Rows before it that were passed over are
+  /// zeros: calls zero(row, columns) for those that the ring should hold.
+  template <class Zero>
+  void take(std::int64_t row, const IndexRange& columns, Zero&& zero) {
+    const std::int64_t held = std::max(outgoing_rows_, face_rows_);
+    for (auto x = columns.first; x < columns.last; x += gap) {
+      auto& last = last_[std::size_t((x - first_) / gap)];
+      for (auto passed = std::max(last + 1, row - held); passed < row; ++passed)
+        zero(passed, IndexRange{x, std::min(x + gap, columns.last)});
+      last = row;
+    }
   }
-  /// Something else than zeros is about to be put there.
-  void fill(const IndexRange& columns) { zeros_[std::size_t((columns.first - first_) / gap)] = {}; }
 
  private:
   static constexpr std::int64_t gap = 16;
@@ -65,12 +68,8 @@ class Ring {
   std::int64_t first_, pitch_;
   int outgoing_rows_, face_rows_, pairs_;
   Buffer<Real> values_;
-  /// Of the columns that begin a block: rows that were set to zero one after the other, and the next one.
-  struct Zeros {
-    std::int64_t next_row = -1, last_column = 0;
-    int rows = 0;
-  };
-  std::vector<Zeros> zeros_;
+  static constexpr std::int64_t before_all = -(std::int64_t{1} << 32);
+  std::vector<std::int64_t> last_;  // row that was put into a block of columns
 };
 
 /// Rows of memory to prefetch, half a row after each loop over a piece: stripes are too short for the
