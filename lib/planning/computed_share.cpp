@@ -24,9 +24,9 @@ constexpr std::int64_t finest = D == 2 ? 128 : 48;
 /// When waves have gone over n cells, numbers that are not zero are ahead of them by head_start n/(n + half)
 /// cells (measured: ComputedShare.IsAsExpected, CubeComputedShare.IsAsExpected). In 3-D waves weaken faster.
 template <int D>
-constexpr double head_start = D == 2 ? 115 : 60;
+constexpr double head_start = D == 2 ? 65 : 60;
 template <int D>
-constexpr double half = D == 2 ? 12 : 40;
+constexpr double half = D == 2 ? 24 : 40;
 
 /// The share of the waves' time to a place that many cells away after which it is no longer zero.
 template <int D>
@@ -58,15 +58,23 @@ class Arrivals {
     for (std::size_t axis = 0; axis < D; ++axis)
       zone[axis] = std::llround((medium.grid().origin_m[axis] - grid.origin_m[axis]) / grid.spacing_m);
     const bool plain = !has_elastic_options(medium);
+    const std::int64_t nx = grid.shape[0];
+    Index<D> at{}, in_model{};
+    std::int64_t of_blocks = 0, of_model = 0;  // the first of a line
     for (std::int64_t n = 0; n < grid.size(); ++n) {
-      auto at = grid.index(n), in_model = at;
-      for (std::size_t axis = 0; axis < D; ++axis) {
-        in_model[axis] = std::clamp<std::int64_t>(at[axis] - zone[axis], 0, medium.grid().shape[axis] - 1);
-        at[axis] /= block;
+      const auto x = n % nx;
+      if (x == 0) {
+        at = in_model = grid.index(n);
+        for (std::size_t axis = 0; axis < D; ++axis) {
+          in_model[axis] = std::clamp<std::int64_t>(at[axis] - zone[axis], 0, medium.grid().shape[axis] - 1);
+          at[axis] /= block;
+        }
+        of_blocks = blocks_.flat(at), of_model = medium.grid().flat(in_model);
       }
-      const auto cell = std::size_t(medium.grid().flat(in_model));
+      in_model[0] = std::clamp<std::int64_t>(x - zone[0], 0, medium.grid().shape[0] - 1);
+      const auto cell = std::size_t(of_model + in_model[0]);
       if (medium.is_void(cell)) continue;
-      const auto number = std::size_t(blocks_.flat(at));
+      const auto number = std::size_t(of_blocks + x / block);
       auto& slowest = slowness_[number];
       if (plain) {
         slowest = std::min(slowest, 1 / double(medium.vp[cell]));

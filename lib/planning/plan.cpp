@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -74,14 +75,14 @@ std::array<double, 2> cells_of_a_second(const Medium<D>& medium) {
   return slowest;
 }
 
-/// Processor time of a step: the median of several; one after another is timed as long as that takes hardly
-/// anything of `shot_steps` of them.
+/// Processor time of the first step, which takes the memory of the fields, and of a later one: the median of
+/// several; one after another is timed as long as that takes hardly anything of `shot_steps` of them.
 template <int D, class Real>
-double seconds_of_step(solver::ShotSimulation<D, Real>& step, double shot_steps) {
+std::pair<double, double> seconds_of_steps(solver::ShotSimulation<D, Real>& step, double shot_steps) {
   constexpr std::int64_t warm_up = 2, most = 15;
   constexpr double enough_s = 0.6, hardly = 0.01;
   std::vector<double> seconds;
-  double sum = 0;
+  double first = 0, sum = 0;
   // A plan takes a small part of the run's time.
   const auto count =
       std::min({step.steps(), warm_up + most, std::max<std::int64_t>(warm_up + 1, step.steps() / 40)});
@@ -89,14 +90,15 @@ double seconds_of_step(solver::ShotSimulation<D, Real>& step, double shot_steps)
     const double start = processor_time_s();
     step.run_to(n + 1);
     const double taken = processor_time_s() - start;
-    sum += taken;
-    if (n == warm_up) seconds.clear();  // caches are filled
+    if (n == 0) first = taken;
+    if (n > 0) sum += taken;
+    if (n == 1 || n == warm_up) seconds.clear();  // caches are filled
     seconds.push_back(taken);
     if (sum > hardly * shot_steps * taken) break;
   }
   const auto middle = seconds.begin() + std::ptrdiff_t(seconds.size() / 2);
   std::nth_element(seconds.begin(), middle, seconds.end());
-  return *middle;
+  return {first, *middle};
 }
 
 /// What the program and its libraries have resident before they read a model.
@@ -164,8 +166,9 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.cell_dependence = cell_dependence(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   const double shot_steps = plan.computed_share * double(plan.steps);
-  plan.seconds =
-      double(scene.survey.sources.size()) * (build_s + shot_steps * seconds_of_step(step, shot_steps));
+  const auto [first_s, later_s] = seconds_of_steps(step, shot_steps);
+  plan.seconds = double(scene.survey.sources.size()) *
+                 (build_s + std::max(0., first_s - later_s) + shot_steps * later_s);
   plan.measuring_seconds = plan.seconds / double(scene.survey.sources.size()) *
                            double(representative_shots(scene.survey).size()) * measuring_share(D);
   plan.instruction_set = solver::instruction_set();

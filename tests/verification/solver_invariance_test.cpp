@@ -181,7 +181,7 @@ TEST(ComputedShare, IsAsExpected) {
         scene.recording = {{Component::vz}, duration, 0.002};
         ShotSimulation<2, float> step(scene, 1, {});
         step.run_to(step.steps());
-        EXPECT_NEAR(step.computed_share(), expected_share(scene, step.domain().grid), 0.15)
+        EXPECT_NEAR(step.computed_share(), expected_share(scene, step.domain().grid), 0.05)
             << "order " << order << ", source " << depth << " m deep, " << duration << " s";
         EXPECT_LT(step.computed_share(), duration < 0.5 ? 0.65 : 0.9);
       }

@@ -552,31 +552,36 @@ template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
   const auto& layout = state.layout;
   const double courant = dt_s / domain.grid.spacing_m;
-  const auto write = [&](RowValues<D>& values_of, const Index<D>& at, const Index<D>& from, bool ghost,
-                         int p_factor, int s_factor) {
-    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
-    const bool carries = !ghost && !medium.is_void(cell);
-    auto values = values_of(cell);
-    values[row_b] = carries ? courant / double(medium.rho[cell]) : 0;
-    for (const auto row : {row_zp, row_zp_across, row_zp_y}) values[row] *= p_factor;
-    for (const auto row : {row_zs, row_zs_level, row_zs_y}) values[row] *= s_factor;
-    Index<D> line = at;
-    line[0] = 0;
-    for (int row = 0; row < state.material_layout.rows(); ++row)
-      state.material_row(line, row)[at[0]] = Real(values[std::size_t(row)]);
+  const auto pitch = state.material_layout.row_pitch(), last_of_model = domain.model_grid.shape[0] - 1;
+  // So many cells of a line as those of a line of the domain.
+  const auto write = [&](RowValues<D>& values_of, const Index<D>& at, const Index<D>& from,
+                         std::int64_t count, bool ghost, int p_factor, int s_factor) {
+    auto first = domain.model_cell(from), line = at;
+    first[0] = line[0] = 0;
+    const auto of_line = domain.model_grid.flat(first), x = from[0] - domain.low_zone[0];
+    Real* const to = state.material_row(line, 0) + at[0];
+    for (std::int64_t n = 0; n < count; ++n) {
+      const auto cell = std::size_t(of_line + std::clamp<std::int64_t>(x + n, 0, last_of_model));
+      auto values = values_of(cell);
+      values[row_b] = ghost || medium.is_void(cell) ? 0 : courant / double(medium.rho[cell]);
+      for (const auto row : {row_zp, row_zp_across, row_zp_y}) values[row] *= p_factor;
+      for (const auto row : {row_zs, row_zs_level, row_zs_y}) values[row] *= s_factor;
+      for (int row = 0; row < state.material_layout.rows(); ++row)
+        to[row * pitch + n] = Real(values[std::size_t(row)]);
+    }
   };
   const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
   parallel_for(lines, 16, [&](std::int64_t begin, std::int64_t end, int) {
     RowValues<D> values_of(medium, state.anisotropic);
     for (std::int64_t line = begin; line < end; ++line) {
       Index<D> at = layout.line_index(line);
-      for (at[0] = 0; at[0] < nx; ++at[0]) write(values_of, at, at, false, 1, 1);
+      write(values_of, at, at, nx, false, 1, 1);
       for (const int side : {0, 1}) {
         Index<D> from = at;
         from[0] = side ? nx - 1 : 0;
         at[0] = side ? nx : -1;
         const EdgeLaw law = domain.edges[0][side];
-        write(values_of, at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+        write(values_of, at, from, 1, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
       }
       // Ghost lines beyond the edges of the other axes repeat the line before them.
       for (int axis = 1; axis < D; ++axis) {
@@ -585,11 +590,9 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
         for (const int side : {0, 1}) {
           if (cell[axis] != (side ? layout.shape()[axis] - 1 : 0)) continue;
           const EdgeLaw law = domain.edges[axis][side];
-          for (cell[0] = 0; cell[0] < nx; ++cell[0]) {
-            Index<D> ghost = cell;
-            ghost[axis] += side ? 1 : -1;
-            write(values_of, ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
-          }
+          Index<D> ghost = cell;
+          ghost[axis] += side ? 1 : -1;
+          write(values_of, ghost, cell, nx, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
         }
       }
     }
