@@ -3,37 +3,57 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
+
+/// Of the corners of the computed grid, in cells: corner_depth() of each, found once.
+template <int D>
+class CornerDepths {
+ public:
+  explicit CornerDepths(const Domain<D>& domain) {
+    for (int axis = 0; axis < D; ++axis) corners_.shape[axis] = domain.grid.shape[axis] + 1;
+    depths_.resize(std::size_t(corners_.size()));
+    parallel_for(corners_.size(), 1024, [&](std::int64_t begin, std::int64_t end, int) {
+      for (auto n = begin; n < end; ++n) depths_[std::size_t(n)] = corner_depth(domain, corners_.index(n));
+    });
+  }
+  double operator()(const Index<D>& corner) const { return depths_[std::size_t(corners_.flat(corner))]; }
+
+ private:
+  Grid<D> corners_;
+  std::vector<double> depths_;
+};
+
 namespace {
 
 /// What the depth of corners gains from a cell's first corners to the next along `step`, the mean along the
 /// horizontal axis other than `axis`.
 template <int D>
-double mean_gain(const Domain<D>& domain, const Index<D>& cell, int axis, int step) {
+double mean_gain(const CornerDepths<D>& depth, const Index<D>& cell, int axis, int step) {
   double gain = 0;
   for (int other = 0; other < D - 1; ++other) {
     Index<D> from = cell;
     if (D == 3) from[1 - axis] += other;
     Index<D> to = from;
     ++to[step];
-    gain += corner_depth(domain, to) - corner_depth(domain, from);
+    gain += depth(to) - depth(from);
   }
   return gain / (D - 1);
 }
 
 /// Of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
 template <int D>
-double slope_of_face(const Domain<D>& domain, const Index<D>& cell, int axis) {
-  return mean_gain(domain, cell, axis, axis);
+double slope_of_face(const CornerDepths<D>& depth, const Index<D>& cell, int axis) {
+  return mean_gain(depth, cell, axis, axis);
 }
 
 /// Height in cells of the face before a cell along a horizontal axis.
 template <int D>
-double height_of_face(const Domain<D>& domain, const Index<D>& cell, int axis) {
-  return mean_gain(domain, cell, axis, D - 1);
+double height_of_face(const CornerDepths<D>& depth, const Index<D>& cell, int axis) {
+  return mean_gain(depth, cell, axis, D - 1);
 }
 
 }  // namespace
@@ -65,11 +85,11 @@ void Metric<D, Real>::find_fluid(const Domain<D>& domain) {
 
 /// Half of what belongs to the face before a cell along an axis, or to that behind the last one.
 template <int D, class Real>
-void Metric<D, Real>::put_face(const Domain<D>& domain, const Index<D>& at, int axis) {
-  if (axis < D - 1) return put(at, row_face + axis, height_of_face(domain, at, axis) / 2);
+void Metric<D, Real>::put_face(const CornerDepths<D>& depth, const Index<D>& at, int axis) {
+  if (axis < D - 1) return put(at, row_face + axis, height_of_face(depth, at, axis) / 2);
   double square = 1;
   for (int other = 0; other < D - 1; ++other) {
-    const double slope = slope_of_face(domain, at, other);
+    const double slope = slope_of_face(depth, at, other);
     square += slope * slope;
     put(at, row_n_face + other, -slope / 2);
   }
@@ -78,6 +98,7 @@ void Metric<D, Real>::put_face(const Domain<D>& domain, const Index<D>& at, int 
 
 template <int D, class Real>
 void Metric<D, Real>::fill(const Domain<D>& domain) {
+  const CornerDepths<D> depth(domain);
   // Padding and ghosts hold a regular grid.
   std::fill(values_.data(), values_.data() + values_.size(), Real(1));
   parallel_for(lines_a_row_ * cells_[D - 1], 8, [&](std::int64_t begin, std::int64_t end, int) {
@@ -90,14 +111,14 @@ void Metric<D, Real>::fill(const Domain<D>& domain) {
           return next;
         };
         for (int axis = 0; axis < D; ++axis) {
-          put_face(domain, at, axis);
-          if (at[axis] + 1 == cells_[axis]) put_face(domain, beyond(axis), axis);
+          put_face(depth, at, axis);
+          if (at[axis] + 1 == cells_[axis]) put_face(depth, beyond(axis), axis);
         }
-        const double j = (height_of_face(domain, at, 0) + height_of_face(domain, beyond(0), 0)) / 2;
+        const double j = (height_of_face(depth, at, 0) + height_of_face(depth, beyond(0), 0)) / 2;
         double square = 1;  // of |N|
         for (int axis = 0; axis < D - 1; ++axis) {
           const double slope =
-              (slope_of_face(domain, at, axis) + slope_of_face(domain, beyond(D - 1), axis)) / 2;
+              (slope_of_face(depth, at, axis) + slope_of_face(depth, beyond(D - 1), axis)) / 2;
           square += slope * slope;
         }
         put(at, row_over_j, 1 / j);

@@ -10,6 +10,9 @@
 
 namespace slipwave::solver {
 
+template <int D>
+class CornerDepths;
+
 /// The metric of a fitted grid on the computed grid (theory.md (F1)): of bent rows J and N by cell and face;
 /// of level rows their height, by which the sweep along z over them is shorter or longer. Empty, and never
 /// asked, where the grid is regular.
@@ -60,7 +63,7 @@ class Metric {
   void fill(const Domain<D>& domain);
   void fill_ghosts(const Domain<D>& domain);
   void fill_ghosts_beyond(const Domain<D>& domain, const Index<D>& at, int axis, int side);
-  void put_face(const Domain<D>& domain, const Index<D>& at, int axis);
+  void put_face(const CornerDepths<D>& depth, const Index<D>& at, int axis);
   Real* place(const Index<D>& at, int of) {
     return values_.data() + layout_.cell(at) + of * layout_.row_pitch();
   }
