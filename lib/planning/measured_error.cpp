@@ -41,7 +41,8 @@ std::vector<double> alike(const SceneRuns<D>& runs, const AccuracySetting& setti
   for (const double ratio : ratios) {
     double best = ratio, least = runs.lie_otherwise(setting, ratio);
     for (int n = 1; n <= 2 * parts_around; ++n) {
-      const double part = double((n + 1) / 2) / parts_of_a_ratio;
+      const int parts = (n + 1) / 2;
+      const double part = double(parts) / parts_of_a_ratio;
       const double other = ratio * (1 + (n % 2 ? part : -part));
       const double otherwise = runs.lie_otherwise(setting, other);
       if (otherwise < least - 1e-9) best = other, least = otherwise;

@@ -156,7 +156,8 @@ void say(const MeasuredError& measured, const SceneRuns<D>& runs, double all_s, 
   messages.say("knowing it took " + shown(all_s - measured.run_s, 2) + " s of processor time, " +
                shown(100 * extra, 2) + " % of the " + shown(measured.run_s, 2) +
                " s of the shots that it was measured on");
-  const auto &all = runs.scene().survey.sources, &shots = runs.observed().shots;
+  const auto& all = runs.scene().survey.sources;
+  const auto& shots = runs.observed().shots;
   if (all.size() > shots.size())
     messages.say("the other " + std::to_string(all.size() - shots.size()) + " shots will take about " +
                  shown(measured.run_s / double(shots.size()) * double(all.size() - shots.size()), 2) +

@@ -192,11 +192,15 @@ std::vector<ModelEffect> SceneOptions::effects_without() const {
 }
 
 template <int D>
-void SceneOptions::check_model(Model<D>& read) const {
+std::vector<std::string> SceneOptions::check_model(Model<D>& read, double resolution) const {
   in_place(model == "-" ? "standard input" : model, [&] { check(read, limits); });
+  // Cells that lose their planes by --without are swept as with them: the response is a difference of the
+  // two.
+  const auto inert = leave_out_inert(read, resolution);
   for (const auto effect : effects_without()) remove_effect(read, effect);
   // What is left must still hold together: planes without friction may slip under the prestress.
   if (!without.empty()) in_place("--without " + without, [&] { check(read, limits); });
+  return inert;
 }
 
 AttenuationChoice SceneOptions::attenuation() const {
@@ -230,15 +234,14 @@ void add_wavelet_warnings(std::vector<std::string>& warnings, const Scene<D>& sc
 /// Checks the model and lets it attenuate.
 template <int D>
 std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
-  check_model(scene.model);
+  const auto in_double = std::numeric_limits<double>::epsilon(),
+             in_single = double(std::numeric_limits<float>::epsilon());
+  const auto inert = check_model(scene.model, scene.numerics.double_precision ? in_double : in_single);
   const auto choice = attenuation();
   try {
     auto warnings = set_attenuation(scene, choice);
     add_wavelet_warnings(warnings, scene);
-    const auto in_double = std::numeric_limits<double>::epsilon(),
-               in_single = double(std::numeric_limits<float>::epsilon());
-    for (const auto& name :
-         leave_out_inert(scene.model, scene.numerics.double_precision ? in_double : in_single))
+    for (const auto& name : inert)
       warnings.push_back("the planes of " + name +
                          " have no effect: no wave moves them by what numbers resolve");
     return warnings;

@@ -49,8 +49,10 @@ struct SceneOptions {
                                           Ranks* group) const;
 
  private:
+  /// Takes out the effects that `without` names; returns the sets whose planes do nothing
+  /// (leave_out_inert()).
   template <int D>
-  void check_model(Model<D>& model) const;
+  std::vector<std::string> check_model(Model<D>& model, double resolution) const;
   AttenuationChoice attenuation() const;
   template <int D>
   std::vector<std::string> idle(const Scene<D>& scene) const;

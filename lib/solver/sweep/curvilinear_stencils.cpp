@@ -234,8 +234,8 @@ void CurvilinearStencils<D, Real>::correct(int order, std::int64_t line, const I
       continue;
     }
     const ExtendedColumn<D, Real> column{fields, metric, i, scale, corrections, welds_.data()};
-    const auto normal = [&](std::int64_t face) {
-      return face_normal<D>(metric.half_n + i + face, metric.pitch);
+    const auto normal = [of = metric.half_n + i, pitch = metric.pitch](std::int64_t face) {
+      return face_normal<D>(of + face, pitch);
     };
     const CellAcross<D, Real> cell{scale,          material.b[i],     material.zp[i],
                                    material.zs[i], metric.stretch[i], {normal(0), normal(metric.stride)}};

@@ -211,7 +211,7 @@ typename Line::At extended(const Stencil<Side>& stencil, const Line& line, int o
   const bool below = offset < -stencil.low.cells;
   if (!below && offset <= stencil.high.cells) return line.at(offset);
   const auto& side = below ? stencil.low : stencil.high;
-  const int cells = side.cells;
+  const int cells{side.cells};
   if (side.law() == Extension::constant) return line.at(below ? -cells : cells);
   // The mirror image lies nearer to the cell with each fold, so this ends.
   auto at = extended(stencil, line, below ? -2 * cells - 1 - offset : 2 * cells + 1 - offset);
@@ -232,7 +232,7 @@ template <int Reach, class Side, class Line>
 std::array<typename Line::At, std::size_t(2 * Reach + 1)> extended_about(const Stencil<Side>& stencil,
                                                                          const Line& line) {
   std::array<typename Line::At, std::size_t(2 * Reach + 1)> at;
-  for (int k = -Reach; k <= Reach; ++k) at[std::size_t(k + Reach)] = extended(stencil, line, k);
+  for (std::size_t n = 0; n < at.size(); ++n) at[n] = extended(stencil, line, int(n) - Reach);
   return at;
 }
 
