@@ -310,7 +310,6 @@ void check_single(const Settings& s) {
                                                  {"--body", !s.body.empty()},
                                                  {"--block", s.block},
                                                  {"--spacing", of.spacing_m && !s.friction},
-                                                 {"--law", !s.law.empty()},
                                                  {"--for-frequency", s.for_hz.has_value()},
                                                  {"--dashpot", !of.dashpot.empty()},
                                                  {"--crack-density", of.crack_density.has_value()},
@@ -319,7 +318,7 @@ void check_single(const Settings& s) {
     if (given)
       refuse("found " + std::string(name) +
              " with single fractures, which have --compliance or --stiffness, with --faces --friction, "
-             "--viscosity, --strength, --opening and --prestress, and nothing else of clusters");
+             "--viscosity, --strength, --law, --opening and --prestress, and nothing else of clusters");
 }
 
 /// Throws a usage Error where single fractures are given what belongs to models of other dimensions.

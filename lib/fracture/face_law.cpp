@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fracture/friction_laws.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -152,6 +154,40 @@ FaceMotion slide_face(const FaceLoad& load, double slip, double strength, double
   if (!(drag > 0)) return slide_dry(load, slip, strength);
   if (load.held > 0) return slide_slowly(load, slip, strength, drag);
   return slide_in_pieces(load, strength, drag);
+}
+
+bool FaceLaw::has_state() const {
+  return with_friction_law(friction_law, [](auto of) { return decltype(of)::has_state; });
+}
+
+double FaceLaw::strength_pa(double normal_pa) const {
+  return with_friction_law(friction_law,
+                           [&](auto of) { return decltype(of)::strength(friction, normal_pa, 0.); });
+}
+
+FaceMotion slide_face(const FaceLaw& law, const FaceLoad& load, const FaceMotion& across,
+                      const FaceSlip& so_far) {
+  auto constants = law.friction;
+  if (across.loose) constants.cohesion_pa = 0;
+  const auto slide = [&](double strength) {
+    return slide_face(load, so_far.slip, strength, law.viscosity_s_m * strength / so_far.impedance);
+  };
+  return with_friction_law(law.friction_law, [&](auto of) {
+    using Law = decltype(of);
+    const double before = Law::strength(constants, across.mean, so_far.path_m);
+    const auto motion = slide(before);
+    if constexpr (Law::has_state) {
+      // As in cells (S18), of half the slip of the sweep; what a change of the strength takes off the slip
+      // depends on springs and tips, and is found by one.
+      const double half_m_per_pa = so_far.m_per_pa / 2, loss = std::abs(motion.moved);
+      const double now =
+          Law::strength(constants, across.mean, Law::slip_after(so_far.path_m, half_m_per_pa, loss));
+      if (now == before) return motion;
+      const double share = (std::abs(slide(now).moved) - loss) / (before - now);
+      return slide(Law::strength_at_end(constants, across.mean, so_far.path_m, half_m_per_pa, loss, share));
+    }
+    return motion;
+  });
 }
 
 FaceMotion part_face(const FaceLoad& load, double opening) {

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "fracture/friction_policy.hpp"
+
 /// What a plane with friction on a face between cells does to the waves of a sweep (docs/theory.md, section
 /// 2.8, (S40) to (S42)): along the plane a slider behind a spring, across it two sides that touch or part.
 ///
@@ -14,19 +16,21 @@ namespace slipwave {
 
 /// A plane on a face, besides the springs it gives way as. Normal before tangential.
 struct FaceLaw {
-  bool slides = false, opens = false;
-  double friction = 0, cohesion_pa = 0;
+  FrictionLaw friction_law = FrictionLaw::none;
+  FrictionConstants<double> friction;
+  bool opens = false;
   /// By which share of the strength a slip rate of 1 m/s raises the traction, s/m.
   double viscosity_s_m = 0;
   std::array<double, 2> prestress_pa{};  // tension positive
   /// Beside a tip: by how much rock beyond it holds back what the plane parts and slips (S37), Pa/m.
   std::array<double, 2> held_pa_m{};
 
-  bool any() const { return slides || opens; }
-  /// Of shut planes under that normal traction; open ones have none.
-  double strength_pa(double normal_pa, bool open) const {
-    return friction * (normal_pa < 0 ? -normal_pa : 0) + (open ? 0 : cohesion_pa);
-  }
+  bool slides() const { return friction_law != FrictionLaw::none; }
+  bool any() const { return slides() || opens; }
+  /// Whether its strength depends on the slip so far.
+  bool has_state() const;
+  /// Strength of the shut plane under that normal traction, before it has slipped.
+  double strength_pa(double normal_pa) const;
 };
 
 /// What one traction of a face finds in a sweep.
@@ -51,6 +55,18 @@ FaceMotion part_face(const FaceLoad& load, double opening);
 /// Of a plane along which a traction of more than the strength slides; `drag` is what the viscosity makes of
 /// the strength beside Z.
 FaceMotion slide_face(const FaceLoad& load, double slip, double strength, double drag);
+
+/// How far a plane has slid before a sweep, and Z.
+struct FaceSlip {
+  double slip = 0;    // to either side, as a traction
+  double path_m = 0;  // all of it
+  double m_per_pa = 0, impedance = 0;
+};
+
+/// Motion along a plane under that of the traction across it, at the strength that its law gives it at the
+/// mean normal traction and the mean slip of the sweep (S40).
+FaceMotion slide_face(const FaceLaw& law, const FaceLoad& load, const FaceMotion& across,
+                      const FaceSlip& so_far);
 
 /// Of a spring alone (S35).
 FaceMotion give_face(const FaceLoad& load);

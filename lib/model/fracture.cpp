@@ -12,6 +12,7 @@
 #include "grid/tensor.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
+#include "model/parted_faces.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -134,25 +135,42 @@ void set_friction_law(SlipSystem<D>& system, const std::string& text) {
   }
 }
 
+template <int D, class Real>
+FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit) {
+  FrictionConstants<Real> law;
+  law.friction = Real(system.friction);
+  law.cohesion_pa = Real(unit * system.strength_pa);
+  if (system.law == FrictionLaw::slip_weakening) {
+    law.friction_drop = Real(system.friction - system.dynamic_friction);
+    law.per_distance = Real(std::min(1 / system.slip_distance_m, most_per_distance));
+  }
+  return law;
+}
+
 template <int D>
 CriticalLength critical_length(const Model<D>& model, std::size_t code) {
   CriticalLength least = {std::numeric_limits<double>::infinity(), 0};
   if (model.prestress_pa.empty()) return least;
+  const auto& set = model.fracture_sets[code - 1];
+  const auto see = [&](const SlipSystem<D>& system, double normal_pa, std::size_t cell) {
+    if (system.law != FrictionLaw::slip_weakening) return;
+    const double vs = double(model.medium.vs[cell]), mu = double(model.medium.rho[cell]) * vs * vs;
+    const double drop_pa = (system.friction - system.dynamic_friction) * std::max(-normal_pa, 0.);
+    if (drop_pa > 0 && mu * system.slip_distance_m / drop_pa < least.length_m)
+      least = {mu * system.slip_distance_m / drop_pa, std::int64_t(cell)};
+  };
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     if (model.fracture[cell] != code) continue;
     SymmetricTensor<D, double> stress;
     for (std::size_t c = 0; c < stress.values.size(); ++c)
       stress.values[c] = double(model.prestress_pa[c][cell]);
-    const double vs = double(model.medium.vs[cell]), mu = double(model.medium.rho[cell]) * vs * vs;
-    for (const auto& system : model.fracture_sets[code - 1].systems) {
-      if (system.law != FrictionLaw::slip_weakening) continue;
-      Point<D> traction{};
-      const double pressed = std::max(-resolve<D, double>(system.normal, stress, traction), 0.);
-      const double drop_pa = (system.friction - system.dynamic_friction) * pressed;
-      if (drop_pa > 0 && mu * system.slip_distance_m / drop_pa < least.length_m)
-        least = {mu * system.slip_distance_m / drop_pa, std::int64_t(cell)};
-    }
+    Point<D> traction{};
+    for (const auto& system : set.systems)
+      see(system, resolve<D, double>(system.normal, stress, traction), cell);
   }
+  for (const auto& face : parted_faces(model, set))
+    for (const auto& at : {face.before(), face.behind})
+      see(set.systems.front(), face.law.prestress_pa[0], std::size_t(model.grid().flat(at)));
   return least;
 }
 
@@ -371,6 +389,10 @@ template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
 template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
 template void set_friction_law<2>(SlipSystem<2>&, const std::string&);
 template void set_friction_law<3>(SlipSystem<3>&, const std::string&);
+template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);
+template FrictionConstants<double> constants_of<2, double>(const SlipSystem<2>&, double);
+template FrictionConstants<float> constants_of<3, float>(const SlipSystem<3>&, double);
+template FrictionConstants<double> constants_of<3, double>(const SlipSystem<3>&, double);
 template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
 template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
 template void remove_effect(Model<2>&, ModelEffect);

@@ -63,9 +63,13 @@ std::string name_of(FrictionLaw law);
 template <int D>
 void set_friction_law(SlipSystem<D>& system, const std::string& text);
 
-/// The least mu D_c/((q_s - q_d) |s_n|) of the cells of a set under the prestress, m (theory.md S18), and
-/// the cell it is in. Infinite where nothing weakens. Cells larger than that fall to dynamic friction at
-/// once.
+/// Constants of a system's friction law; stress is `unit` times Pa.
+template <int D, class Real>
+FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
+
+/// The least mu D_c/((q_s - q_d) |s_n|) of the cells of a set, or of those beside its faces, under the
+/// prestress, m (theory.md S18), and the cell it is in. Infinite where nothing weakens. Cells larger than
+/// that fall to dynamic friction at once.
 struct CriticalLength {
   double length_m;
   std::int64_t cell;

@@ -187,8 +187,6 @@ void check_single(const FractureSet<D>& set, const std::string& name) {
       system.compliance.crack_density > 0)
     throw Error(name + ": single fractures have a normal and a tangential compliance and no other law" +
                 (D == 2 ? ", on faces friction, too" : ""));
-  if (system.law == FrictionLaw::slip_weakening)
-    throw Error(name + ": single fractures on faces have Coulomb friction, found slip weakening");
   if (system.slides() && system.viscosity_s > 0 && !(system.compliance.spacing_m > 0))
     throw Error(name +
                 ": the viscosity of a single fracture needs a spacing above zero, in metres: that of " +

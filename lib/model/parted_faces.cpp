@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "model/fracture.hpp"
 
 namespace slipwave {
 namespace {
@@ -32,9 +33,9 @@ double holding(double tip_m_per_pa, double both_m_per_pa) {
 FaceLaw law_of(const Model<2>& model, const SlipSystem<2>& system, int axis,
                const std::array<std::size_t, 2>& cells) {
   FaceLaw law;
-  law.slides = system.slides(), law.opens = system.opens;
-  if (!law.slides) return law;
-  law.friction = system.friction, law.cohesion_pa = system.strength_pa;
+  law.friction_law = system.law, law.opens = system.opens;
+  if (!law.slides()) return law;
+  law.friction = constants_of<2, double>(system, 1);
   if (system.viscosity_s > 0) law.viscosity_s_m = system.viscosity_s / system.compliance.spacing_m;
   if (model.prestress_pa.empty()) return law;
   // Components are sxx, szz, sxz.
@@ -83,7 +84,7 @@ void add_faces(const Model<2>& model, const FacesOfTrace& of, const SlipSystem<2
     one.tangential_m_per_pa = together(compliance.tangential_m_per_pa * covered, tip_tangential);
     one.law = law_of(model, system, of.axis, {low, high});
     if (one.law.opens) one.law.held_pa_m[0] = holding(tip_normal, one.normal_m_per_pa);
-    if (one.law.slides) one.law.held_pa_m[1] = holding(tip_tangential, one.tangential_m_per_pa);
+    if (one.law.slides()) one.law.held_pa_m[1] = holding(tip_tangential, one.tangential_m_per_pa);
     faces.push_back(one);
   }
 }

@@ -23,7 +23,7 @@ struct PartedFace {
 
   /// Whether both sides may move apart across it (pair 0) or along it.
   bool parts(int pair) const {
-    return pair == 0 ? normal_m_per_pa > 0 || law.opens : tangential_m_per_pa > 0 || law.slides;
+    return pair == 0 ? normal_m_per_pa > 0 || law.opens : tangential_m_per_pa > 0 || law.slides();
   }
   /// Whether the sides pull each other back.
   bool springs() const {

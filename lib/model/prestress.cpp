@@ -151,9 +151,9 @@ void check_prestress_of_faces(const Model<D>& model) {
     if (law.opens && normal > rounding)
       refuse("pulls a fracture on faces apart by " + shown(normal, 4) +
              " Pa; planes that may open must be under compression");
-    if (std::abs(shear) > law.strength_pa(normal, false) + rounding)
+    if (std::abs(shear) > law.strength_pa(normal) + rounding)
       refuse("shears a fracture on faces by " + shown(std::abs(shear), 4) +
-             " Pa, expected at most its strength of " + shown(law.strength_pa(normal, false), 4) + " Pa");
+             " Pa, expected at most its strength of " + shown(law.strength_pa(normal), 4) + " Pa");
   }
 }
 

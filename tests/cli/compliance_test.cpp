@@ -79,6 +79,31 @@ TEST_F(Compliance, OfFracturesWithFrictionGoesFromTheCommandLineToTraces) {
   done("sw-plot s.nc -o s.png");
 }
 
+TEST_F(Compliance, OfFracturesThatWeakenGoesFromTheCommandLineToTraces) {
+  done(model + "-o m.nc");
+  const auto fault = [&](const std::string& law) {
+    return done("sw-fracture m.nc --segment 80,150:220,150 --faces --friction 0.6 --viscosity 0 --law " +
+                law + " --prestress=-100,-100,50 -o w.nc");
+  };
+  fault("coulomb");
+  const std::string shot =
+      " --source 150,50 --receivers 50:250:50,20 --wavelet ricker:20 --amplitude 1e9 --time 0.2 --dt 0.002 ";
+  done("sw-shoot w.nc" + shot + "-q -o coulomb.sgy");
+  fault("slip-weakening:0.6:1e-6");
+  done("sw-shoot w.nc" + shot + "-q -o same.sgy && sw-compare same.sgy coulomb.sgy --tolerance 0");
+  fault("slip-weakening:0.1:1e-6");
+  const auto info = done("sw-info w.nc");
+  for (const auto* text : {"law slip-weakening", "dynamic friction 0.1", "slip distance 1e-06 m"})
+    EXPECT_TRUE(has(info, text)) << info;
+  EXPECT_TRUE(has(done("sw-shoot w.nc" + shot + "--plan -v"), "slip weakening"));
+  done("sw-shoot w.nc" + shot + "-q -o weak.sgy");
+  EXPECT_NE(run("sw-compare weak.sgy coulomb.sgy --tolerance 0").code, 0);
+  const auto warned =
+      run("sw-fracture m.nc --segment 80,150:220,150 --faces --friction 0.6 --viscosity 0 --law "
+          "slip-weakening:0.1:1e-9 --prestress=1e5 -o w.nc");
+  EXPECT_TRUE(has(warned.err, "too large for slip weakening")) << warned.err;
+}
+
 TEST_F(Compliance, OfDiscsGoesFromTheCommandLineToTraces) {
   done("sw-layers --size 200x150x120 --step 10 --layer 0:3000:1500:2200 -q -o m.nc");
   write("plates.txt", "40 40 60\n90 40 60\n90 100 80\n40 100 80\n\n120 50 30\n150 50 30\n150 50 90\n");

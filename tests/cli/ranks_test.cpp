@@ -87,6 +87,10 @@ TEST_F(ShotByRanks, IsTheSameWhereFracturesLieOnFaces) {
       "sw-fracture f.nc --segment 260,100:260,400 --segment 100,250:190,250 --faces --friction 0.2 "
       "--viscosity 1 --spacing 5 --opening --prestress=-10,-10,1 -o f.nc");
   expect_same();
+  done(
+      "sw-fracture f.nc --segment 150,120:150,420 --faces --friction 0.5 --viscosity 0 --law "
+      "slip-weakening:0.1:1e-6 --prestress=-100,-100,10 -o f.nc");
+  expect_same();
 }
 
 TEST_F(ShotByRanks, InThreeDimensionsToo) {

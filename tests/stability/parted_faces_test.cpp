@@ -26,6 +26,7 @@ struct Plane {
   double friction, cohesion_pa, viscosity_s;
   bool opens;
   double compliance;
+  double weak_share = 1, slip_distance_m = 0;  // of friction that falls to that share of it
 };
 FractureSet<2> fractures(const std::vector<FractureTrace<2>>& traces, const Plane& of) {
   auto set = fractures(traces, of.compliance / 2, of.compliance);
@@ -34,6 +35,7 @@ FractureSet<2> fractures(const std::vector<FractureTrace<2>>& traces, const Plan
   system.friction = of.friction, system.strength_pa = of.cohesion_pa, system.viscosity_s = of.viscosity_s;
   system.opens = of.opens;
   system.compliance.spacing_m = 5;
+  if (of.slip_distance_m > 0) weaken(system, of.weak_share, of.slip_distance_m);
   return set;
 }
 
@@ -114,11 +116,19 @@ TEST_P(PartedFaces, KeepEnergyFallingOpenOrNot) {
 // Proves (S43).
 TEST_P(PartedFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
   const ThreadLimit one_thread(1);
-  const Plane planes[] = {{0, 0, 0, false, 0},        {0.5, 0, 0, false, 0},
-                          {0.5, 1e6, 0, true, 0},     {0.3, 1e5, 1e2, false, 0},
-                          {0.3, 0, 1e5, true, 0},     {0.8, 0, 0, false, 5e-10},
-                          {0.2, 2e5, 0, true, 5e-9},  {0.5, 1e5, 1e2, true, 5e-11},
-                          {100, 0, 1e-3, true, 1e-9}, {1e-3, 1e4, 1e2, false, 1e-9}};
+  const Plane planes[] = {{0, 0, 0, false, 0},
+                          {0.5, 0, 0, false, 0},
+                          {0.5, 1e6, 0, true, 0},
+                          {0.3, 1e5, 1e2, false, 0},
+                          {0.3, 0, 1e5, true, 0},
+                          {0.8, 0, 0, false, 5e-10},
+                          {0.2, 2e5, 0, true, 5e-9},
+                          {0.5, 1e5, 1e2, true, 5e-11},
+                          {100, 0, 1e-3, true, 1e-9},
+                          {1e-3, 1e4, 1e2, false, 1e-9},
+                          {0.5, 0, 0, false, 0, 0.1, 1e-3},
+                          {0.5, 1e5, 1e2, true, 5e-10, 0, 1e-4},
+                          {0.8, 0, 0, true, 1e-9, 0.3, 1e-9}};
   unsigned next = 1;
   for (const int order : orders_tried())
     for (const auto& plane : planes) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "fracture_slip_cases.hpp"
+#include "model/fracture.hpp"
 
 namespace slipwave {
 namespace {
@@ -239,7 +240,7 @@ TEST(SlipWeakening, OfTwoSystemsIsTheSameInKernelAndJointSolver) {
   const auto planes = solver::planes_of<2, double>(systems);
   std::vector<JointSlip<2, double, SlipWeakening>::System> both;
   for (const auto& system : systems)
-    both.push_back({{system.normal[0], system.normal[1]}, solver::constants_of<2, double>(system, 1)});
+    both.push_back({{system.normal[0], system.normal[1]}, constants_of<2, double>(system, 1)});
   for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential})
     for (const double c : {1e3, 1e5, most_relaxation_pa}) {
       const auto kernels =
@@ -281,10 +282,10 @@ TEST(SlipWeakening, OfCrossingPlanesOverAnEndlessDistanceIsCoulombToTheBit) {
     SlipSystem<3> system{{}, 0.3, 0, 100};
     system.normal[n] = 1;
     Traction<3, double> normal{system.normal[0], system.normal[1], system.normal[2]};
-    coulomb.push_back({normal, solver::constants_of<3, double>(system, 1)});
+    coulomb.push_back({normal, constants_of<3, double>(system, 1)});
     system.law = FrictionLaw::slip_weakening;
     system.slip_distance_m = endless;
-    weak.push_back({normal, solver::constants_of<3, double>(system, 1)});
+    weak.push_back({normal, constants_of<3, double>(system, 1)});
   }
   for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential})
     for (const double c : {1e3, most_relaxation_pa}) {

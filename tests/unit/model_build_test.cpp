@@ -5,7 +5,9 @@
 #include "base/parse.hpp"
 #include "model/fracture.hpp"
 #include "model/layers.hpp"
+#include "model/prestress.hpp"
 #include "model/relations.hpp"
+#include "model/single_fracture.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;
@@ -181,6 +183,18 @@ TEST(FrictionLaws, HaveACriticalLengthWhereStaticStressPressesMost) {
   const auto [length_m, cell] = critical_length(model, 1);
   EXPECT_EQ(cell, 6);
   EXPECT_NEAR(length_m, mu * 1e-3 / (0.4 * 2e6), 1e-9 * length_m);
+}
+
+TEST(FrictionLaws, HaveACriticalLengthInTheSofterRockBesideAFaceToo) {
+  Model<2> model;
+  model.medium = layered_medium(grid_of(8, 8, 10), {{0, 3000, 1500, 2000, 0}, {40, 2000, 1000, 1800, 0}});
+  FractureSet<2> set{"set", {{{0, 1}, 0.6, 0, 0}}, {{{20, 40}, {70, 40}}}, true};
+  set_friction_law(set.systems[0], "slip-weakening:0.2:1e-3");
+  add_single_fractures(model, set);
+  set_prestress(model, 1, parse_prestress<2>("1e6"));
+  const auto [length_m, cell] = critical_length(model, 1);
+  EXPECT_EQ(model.grid().index(cell)[1], 4);
+  EXPECT_NEAR(length_m, 1800. * 1000 * 1000 * 1e-3 / (0.4 * 1e6), 1e-9 * length_m);
 }
 
 TEST(Fractures, FitTheCodeOfOneByte) {

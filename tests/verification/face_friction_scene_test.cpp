@@ -7,6 +7,7 @@
 
 #include "continued.hpp"
 #include "lab.hpp"
+#include "model/fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/resample.hpp"
 #include "model/single_fracture.hpp"
@@ -20,12 +21,14 @@ struct Plane {
   double friction = 0.5, cohesion_pa = 0, viscosity_s = 0;
   bool opens = false;
   double z_n = 0, z_t = 0;
+  std::string law = "coulomb";
 };
 
 void add(Model<2>& model, const Plane& of, std::vector<FractureTrace<2>> traces,
          const std::string& prestress) {
   SlipSystem<2> system{normal_between_tips(traces.front()), of.friction, of.viscosity_s, of.cohesion_pa,
                        of.opens};
+  set_friction_law(system, of.law);
   system.compliance = {of.z_n, of.z_t, 0, 0, of.viscosity_s > 0 ? 5. : 0};
   add_single_fractures(model, {"faces", {system}, std::move(traces), true});
   set_prestress(model, model.fracture_sets.size(), parse_prestress<2>(prestress));
@@ -44,6 +47,8 @@ Scene<2> faulted() {
   add(model, {0.3, 100, 0, true}, {{{80, 500}, {390, 500}}}, "-1500,-1000,-200");
   add(model, {0.2, 0, 5, true, 2e-9, 1e-9}, {{{330, 90}, {330, 700}}}, "-1000,-1000,0");
   add(model, {0.4, 0, 20}, {{{100, 200}, {200, 200}}}, "-1000,-2000,-700");
+  add(model, {0.5, 50, 0, true, 0, 1e-10, "slip-weakening:0.1:2e-6"}, {{{430, 151}, {430, 599}}},
+      "-1000,-2000,200");
   return scene;
 }
 
@@ -146,11 +151,19 @@ TEST(FaceFriction, OfStrengthThatNoWaveReachesIsRockThatIsWhole) {
   EXPECT_LT(change_between(strong, over_a_plane(5)), 1e-3);
 }
 
-/// What a plane of that strength sends out, whose viscosity drags as so many times Z at its strength: on
-/// faces, or as a row of cells whose middles lie where it does.
-std::vector<double> sent_out(double strength_pa, double drag, double h, bool row) {
+/// A plane of that strength, whose viscosity drags as so many times Z at it, that may fall with slip.
+struct Fault {
+  double strength_pa, drag;
+  std::string law = "coulomb";
+};
+
+/// What it sends out, on faces or as a row of cells whose middles lie where it does.
+std::vector<double> sent_out(const Fault& of, double h, bool row) {
   auto scene = over_a_plane(h);
   const double z = 2500 * 2250 / 2;
+  // Under so much pressure that waves change the strength little.
+  constexpr double friction = 1e-3;
+  const std::string prestress = shown(of.strength_pa / friction);
   if (row) {
     auto grid = scene.model.grid();
     grid.origin_m[1] = -h / 2;
@@ -161,10 +174,13 @@ std::vector<double> sent_out(double strength_pa, double drag, double h, bool row
       scene.model.fracture({i, std::int64_t(300 / h)}) = 1;
     // A row has some more viscosity of its own, (S9).
     constexpr double k = 0.19;
-    scene.model.fracture_sets = {{"row", {{{0, 1}, 0, (drag - k) * z * h / strength_pa, strength_pa}}}};
+    scene.model.fracture_sets = {{"row", {{{0, 1}, friction, (of.drag - k) * z * h / of.strength_pa}}}};
+    set_friction_law(scene.model.fracture_sets[0].systems[0], of.law);
+    set_prestress(scene.model, 1, parse_prestress<2>(prestress));
   } else {
     // Of planes as far apart as add() has them.
-    add(scene.model, {0, strength_pa, drag * z * 5 / strength_pa}, {{{200, 300}, {400, 300}}}, "none");
+    add(scene.model, {friction, 0, of.drag * z * 5 / of.strength_pa, false, 0, 0, of.law},
+        {{{200, 300}, {400, 300}}}, prestress);
   }
   auto whole = scene;
   whole.with_slip = false;
@@ -174,21 +190,67 @@ std::vector<double> sent_out(double strength_pa, double drag, double h, bool row
   return sent;
 }
 
-// Proves (S41).
-TEST(FaceFriction, IsWhatARowOfCellsComesNearAsTheyGetSmall) {
+/// Expects a row of cells to come near it on faces as they get small.
+void expect_row_near(const Fault& of) {
+  const auto off = [&of](double h) { return relative_error(sent_out(of, h, true), sent_out(of, h, false)); };
+  const double fine = off(2.5);
+  EXPECT_LT(fine, 0.05);
+  EXPECT_GT(off(5), 1.5 * fine);
+}
+
+/// The largest shear traction of the waves where that plane lies.
+double largest_traction() {
   auto probe = over_a_plane(5);
   probe.survey.receivers_m = {{250, 300}, {300, 300}, {350, 300}};
   probe.recording.components = {Component::sxz};
   double most = 0;
   for (const double sample : all_samples(shoot(probe, 1))) most = std::max(most, std::abs(sample));
-  for (const auto& [share, drag] : {std::pair{0.1, 1.}, {0.25, 3.}}) {
-    const auto off = [strength = share * most, drag = drag](double h) {
-      return relative_error(sent_out(strength, drag, h, true), sent_out(strength, drag, h, false));
-    };
-    const double fine = off(2.5);
-    EXPECT_LT(fine, 0.05) << share;
-    EXPECT_GT(off(5), 1.5 * fine) << share;
+  return most;
+}
+
+/// Slip of a traction of the waves within a tenth of a period of 30 Hz.
+double slip_of(double traction_pa) { return traction_pa / (2500 * 2250 / 2) / 30 / 10; }
+
+// Proves (S17).
+TEST(FaceFriction, ThatWeakensLiesBetweenStaticAndDynamicFriction) {
+  const double most = largest_traction();
+  const auto with = [&](const Plane& plane) {
+    auto scene = over_a_plane(5);
+    add(scene.model, plane, {level}, shown(most));
+    return scene;
+  };
+  const auto falling = [](const std::string& dynamic, const std::string& distance_m) {
+    return Plane{0.6, 0, 0, false, 0, 0, "slip-weakening:" + dynamic + ':' + distance_m};
+  };
+  const auto coulomb = with({0.6}), dynamic = with({0.1});
+  EXPECT_EQ(change_between(with(falling("0.6", "1e-6")), coulomb), 0);
+  EXPECT_EQ(change_between(with(falling("0.1", "1e300")), coulomb), 0);
+  const double all = change_between(coulomb, dynamic);
+  EXPECT_GT(all, 0.01);
+  double before = all;
+  for (const double share : {1., 0.1, 1e-3}) {
+    const double off = change_between(with(falling("0.1", shown(share * slip_of(most)))), dynamic);
+    EXPECT_LT(off, before) << share;
+    before = off;
   }
+  EXPECT_LT(before, 0.2 * all);
+}
+
+// Proves (S41).
+TEST(FaceFriction, IsWhatARowOfCellsComesNearAsTheyGetSmall) {
+  const double most = largest_traction();
+  for (const auto& [share, drag] : {std::pair{0.1, 1.}, {0.25, 3.}}) {
+    SCOPED_TRACE(share);
+    expect_row_near({share * most, drag});
+  }
+}
+
+// Proves (S44).
+TEST(FaceFriction, ThatWeakensIsWhatARowOfCellsComesNearToo) {
+  const double most = largest_traction(), strength = 0.25 * most;
+  const Fault weak{strength, 3, "slip-weakening:5e-4:" + shown(slip_of(most))};
+  EXPECT_GT(relative_error(sent_out(weak, 5, false), sent_out({strength, 3}, 5, false)), 0.1);
+  expect_row_near(weak);
 }
 
 }  // namespace

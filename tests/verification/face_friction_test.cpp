@@ -144,8 +144,8 @@ std::function<double(double)> in_small_steps(State state, const Next& next, doub
 
 PartedFace<2> sliding(double friction, double pressure_pa, double shear_pa = 0, double viscosity_s_m = 0) {
   PartedFace<2> face;
-  face.law.slides = true;
-  face.law.friction = friction;
+  face.law.friction_law = FrictionLaw::coulomb;
+  face.law.friction.friction = friction;
   face.law.prestress_pa = {-pressure_pa, shear_pa};
   face.law.viscosity_s_m = viscosity_s_m;
   return face;
@@ -189,6 +189,38 @@ TEST(FaceUnderAShearWave, CarriesWhatItsViscosityDragsBesides) {
       return std::abs(s) <= strength ? s : (std::copysign(strength, s) + drag * s) / (1 + drag);
     });
   }
+}
+
+// Proves (S44).
+TEST(FaceUnderAShearWave, FollowsTheEquationsOfStrengthThatFallsWithSlip) {
+  const double friction = 0.5, dynamic = 0.1, pressure = 1e5, resting = 2e4;
+  for (const double distance_m : {3e-4, 2e-3})
+    for (const auto& [compliance, drag] : {std::pair{0., 0.}, {1e-9, 0.}, {0., 0.5}}) {
+      SCOPED_TRACE(std::to_string(distance_m * 1e3) + " mm, " + std::to_string(compliance * 1e9) +
+                   " nm/Pa, drag " + std::to_string(drag));
+      Case of{1, {}};
+      const double z = both(of), viscosity_s_m = drag * z / (friction * pressure);
+      of.face = sliding(friction, pressure, resting, viscosity_s_m);
+      of.face.tangential_m_per_pa = compliance;
+      of.face.law.friction_law = FrictionLaw::slip_weakening;
+      of.face.law.friction.friction_drop = friction - dynamic;
+      of.face.law.friction.per_distance = 1 / distance_m;
+      struct State {
+        double traction, path_m;
+      };
+      // (S40), the slip implicit at the strength of the step before.
+      expect_to_converge(
+          of, in_small_steps(State{resting, 0}, [&, c = compliance](State before, double t, double step_s) {
+            const double w = welded(of, t + step_s);
+            const double fallen = (friction - dynamic) * std::min(before.path_m / distance_m, 1.);
+            const double strength = (friction - fallen) * pressure;
+            const double stuck = (c / step_s * before.traction + w / z) / (c / step_s + 1 / z);
+            if (std::abs(stuck) <= strength) return State{stuck, before.path_m};
+            const double excess = std::abs(stuck) - strength, flows = viscosity_s_m * strength;
+            const double rate = excess / (1 / (c / step_s + 1 / z) + flows);
+            return State{std::copysign(strength + flows * rate, stuck), before.path_m + rate * step_s};
+          }));
+    }
 }
 
 // Proves (S43).

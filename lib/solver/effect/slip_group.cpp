@@ -152,7 +152,7 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     modulus_.assign(count_, 0);
   }
   slips_m_.resize(systems.size());
-  if (law() != FrictionLaw::coulomb) {
+  if (with_friction_law(law(), [](auto of) { return decltype(of)::has_state; })) {
     for (auto& slips : slips_m_) slips.assign(count_, 0);
     slip_per_pa_.assign(count_, 0);
   }
@@ -221,7 +221,7 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
     centred_ = correction == SlipCorrection::centred;
     const auto rule = centred_ ? SlipCorrection::second : correction;
     if (centred_) retained_.assign(count_ * std::size_t(2 * SymmetricTensor<D, Real>::components), 0);
-    law() == FrictionLaw::coulomb ? add_joint<Coulomb>(rule) : add_joint<SlipWeakening>(rule);
+    with_friction_law(law(), [&](auto of) { add_joint<decltype(of)>(rule); });
   }
   resolved_ = std::move(resolved);
 }
@@ -330,10 +330,10 @@ void SlipGroup<D, Real>::act_on(SlipAct act, Real* stress, std::int64_t pitch, s
     if (open_) open(stress, pitch, place, n);
   } else if (kernels_.slip) {
     (act == SlipAct::begin ? kernels_.begin : kernels_.slip)(n, planes_, rows(stress, pitch, place));
-  } else if (const auto* const coulomb = std::get_if<JointSlip<D, Real, Coulomb>>(&joint_)) {
-    slip_jointly(*coulomb, stress, pitch, place, n, act == SlipAct::begin);
-  } else if (const auto* const weakening = std::get_if<JointSlip<D, Real, SlipWeakening>>(&joint_)) {
-    slip_jointly(*weakening, stress, pitch, place, n, act == SlipAct::begin);
+  } else {
+    std::visit(
+        [&](const auto& joint) { slip_jointly(joint, stress, pitch, place, n, act == SlipAct::begin); },
+        joint_);
   }
 }
 

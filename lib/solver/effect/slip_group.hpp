@@ -7,9 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "fracture/coulomb.hpp"
+#include "fracture/friction_laws.hpp"
 #include "fracture/joint_slip.hpp"
-#include "fracture/slip_weakening.hpp"
 #include "model/anisotropy.hpp"
 #include "model/elasticity.hpp"
 #include "scene/scene.hpp"
@@ -92,6 +91,7 @@ class SlipGroup {
   FrictionLaw law() const;
   template <class Law>
   void add_joint(SlipCorrection correction);
+  void slip_jointly(std::monostate, Real*, std::int64_t, std::size_t, std::int64_t, bool) {}
   template <class Law>
   void slip_jointly(const JointSlip<D, Real, Law>& joint, Real* stress, std::int64_t pitch, std::size_t place,
                     std::int64_t n, bool begins);
@@ -111,7 +111,9 @@ class SlipGroup {
   SlipKernels<Real> kernels_{};
   GapKernel<Real> open_ = nullptr;
   // For systems without a kernel.
-  std::variant<std::monostate, JointSlip<D, Real, Coulomb>, JointSlip<D, Real, SlipWeakening>> joint_;
+  template <class... Laws>
+  using JointOf = std::variant<std::monostate, JointSlip<D, Real, Laws>...>;
+  OfFrictionLaws<JointOf> joint_;
   bool centred_ = false;
   std::vector<std::vector<Real>> relaxation_;  // [system][cell], as stress
   std::vector<std::vector<Real>> gaps_;        // [system][cell], of systems that open; else empty

@@ -50,18 +50,6 @@ std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& n) {
 }
 
 template <int D, class Real>
-FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit) {
-  FrictionConstants<Real> law;
-  law.friction = Real(system.friction);
-  law.cohesion_pa = Real(unit * system.strength_pa);
-  if (system.law == FrictionLaw::slip_weakening) {
-    law.friction_drop = Real(system.friction - system.dynamic_friction);
-    law.per_distance = Real(std::min(1 / system.slip_distance_m, most_per_distance));
-  }
-  return law;
-}
-
-template <int D, class Real>
 SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit) {
   SlipPlanes<Real> planes{};
   for (std::size_t n = 0; n < systems.size() && n < SlipPlanes<Real>::most_systems; ++n) {
@@ -84,10 +72,6 @@ template std::array<Point<2>, 1> tangents_of<2>(const Point<2>&);
 template std::array<Point<3>, 2> tangents_of<3>(const Point<3>&);
 template CellCompliance compliance_of<2>(const SlipSystem<2>&, bool, double, double);
 template CellCompliance compliance_of<3>(const SlipSystem<3>&, bool, double, double);
-template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);
-template FrictionConstants<double> constants_of<2, double>(const SlipSystem<2>&, double);
-template FrictionConstants<float> constants_of<3, float>(const SlipSystem<3>&, double);
-template FrictionConstants<double> constants_of<3, double>(const SlipSystem<3>&, double);
 template SlipPlanes<float> planes_of<2, float>(const std::vector<SlipSystem<2>>&, double);
 template SlipPlanes<double> planes_of<2, double>(const std::vector<SlipSystem<2>>&, double);
 template SlipPlanes<float> planes_of<3, float>(const std::vector<SlipSystem<3>>&, double);

@@ -13,10 +13,6 @@ namespace slipwave::solver {
 template <int D>
 std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& normal);
 
-/// Constants of a system's friction law; stress is `unit` times Pa.
-template <int D, class Real>
-FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
-
 /// The constants of kernels for up to three systems of a set; their shear traction is that of the first.
 /// Stress is `unit` times Pa.
 template <int D, class Real>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inner loops of slip, compiled once for each instruction set as kernels_level.cpp is, under the same
 // rules.
-#include "fracture/coulomb.hpp"
-#include "fracture/slip_weakening.hpp"
+#include "fracture/friction_laws.hpp"
 #include "solver/kernels/linear_slip_rows.hpp"
 #include "solver/kernels/resolved_traction.hpp"
 #include "solver/kernels/slip_tables.hpp"
@@ -451,10 +450,9 @@ SlipKernels<Real> of_law(const SlipCase& of) {
   return of.prestress_or_gap ? of_correction<Law, true, Real>(of) : of_correction<Law, false, Real>(of);
 }
 
-/// A new law is added here, too.
 template <class Real>
 SlipKernels<Real> of(const SlipCase& of) {
-  return of.law == FrictionLaw::coulomb ? of_law<Coulomb, Real>(of) : of_law<SlipWeakening, Real>(of);
+  return with_friction_law(of.law, [&](auto law) { return of_law<decltype(law), Real>(of); });
 }
 
 template <class Real>

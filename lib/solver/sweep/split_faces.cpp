@@ -41,6 +41,8 @@ SplitFaces<D, Real>::SplitFaces(const State<D, Real>& state, const Domain<D>& do
   if (std::none_of(faces_.begin(), faces_.end(), [](const Face& face) { return face.law.any(); })) return;
   slips_.resize(faces_.size());
   work_.resize(faces_.size());
+  if (std::any_of(faces_.begin(), faces_.end(), [](const Face& face) { return face.law.has_state(); }))
+    paths_m_.assign(faces_.size(), 0);
   for (std::size_t n = 0; n < faces_.size(); ++n)
     for (const std::size_t pair : {0, 1}) slips_[n].stiffness[pair] = images_[pair][2 * n].stiffness;
 }
@@ -236,9 +238,9 @@ typename SplitFaces<D, Real>::Swept SplitFaces<D, Real>::solve(std::size_t n,
   const double opening_m = double(slips_[n].opening) / unit_, slip_m = double(slips_[n].slip) / unit_;
   Swept swept{};
   swept.motion[0] = law.opens ? part_face(across, opening_m * per_m(0)) : give_face(across);
-  const double strength = law.strength_pa(swept.motion[0].mean, swept.motion[0].loose);
-  const double drag = law.viscosity_s_m * strength / face.impedance[1];
-  swept.motion[1] = slide_face(along, slip_m * per_m(1), strength, drag);
+  const double path_m = paths_m_.empty() ? 0 : double(paths_m_[n]);
+  swept.motion[1] =
+      slide_face(law, along, swept.motion[0], {slip_m * per_m(1), path_m, 1 / per_m(1), face.impedance[1]});
   for (const std::size_t pair : {0, 1}) {
     const auto& motion = swept.motion[pair];
     const double half_cell = double(face.half_cell[pair]);
@@ -285,6 +287,8 @@ void SplitFaces<D, Real>::advance(std::size_t n, const Swept& swept) {
     slip.stiffness[pair] = swept.stiffness[pair];
     if (pair == 1 && motion.loose) slip.slid = 1;
   }
+  if (!paths_m_.empty())
+    paths_m_[n] = Real(std::min(double(paths_m_[n]) + std::abs(swept.moved_m[1]), most_slip_m));
   // What rounding leaves of it would be a plane that stands open.
   if (!swept.motion[0].loose) slip.opening = 0;
 }
@@ -367,6 +371,7 @@ void SplitFaces<D, Real>::exchange(const IndexRange& rows,
     if (slips_.empty()) continue;
     static_assert(sizeof(Slip) == reals_of_slip * sizeof(Real));
     to(&slips_[first].opening, std::int64_t(last - first) * reals_of_slip);
+    if (!paths_m_.empty()) to(&paths_m_[first], std::int64_t(last - first));
   }
 }
 
@@ -376,6 +381,7 @@ void SplitFaces<D, Real>::serialize(Archive& archive) {
   if (slips_.empty()) return;
   archive.fixed(slips_);
   archive.fixed(work_);
+  if (!paths_m_.empty()) archive.fixed(paths_m_);
 }
 
 template <int D, class Real>
@@ -384,8 +390,10 @@ std::vector<EffectShare> SplitFaces<D, Real>::shares() const {
   const auto count = [&](const auto& has) {
     return std::int64_t(std::count_if(faces_.begin(), faces_.end(), has));
   };
-  if (const auto sliding = count([](const Face& face) { return face.law.slides; }); sliding > 0)
+  if (const auto sliding = count([](const Face& face) { return face.law.slides(); }); sliding > 0)
     all.push_back({"  friction", sliding});
+  if (const auto weak = count([](const Face& face) { return face.law.has_state(); }); weak > 0)
+    all.push_back({"  slip weakening", weak});
   if (const auto opening = count([](const Face& face) { return face.law.opens; }); opening > 0)
     all.push_back({"  opening", opening});
   return all;
@@ -415,8 +423,8 @@ bool SplitFaces<D, Real>::owns(std::size_t n) const {
 
 template <int D, class Real>
 std::int64_t SplitFaces<D, Real>::memory_bytes() const {
-  return bytes_of(faces_) + bytes_of(slips_) + bytes_of(work_) + bytes_of(tractions_) + bytes_of(retained_) +
-         bytes_of(images_);
+  return bytes_of(faces_) + bytes_of(slips_) + bytes_of(work_) + bytes_of(paths_m_) + bytes_of(tractions_) +
+         bytes_of(retained_) + bytes_of(images_);
 }
 
 /// Half of traction times jump, that is C times traction, of each face, and of what holds back tips. An open

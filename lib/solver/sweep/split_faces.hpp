@@ -18,7 +18,8 @@ namespace slipwave::solver {
 /// Faces between cells that single fractures split (theory/fractures.md): each side has its own velocity, and
 /// the traction is that of a spring between them, none where it is open, at most its strength where it has
 /// friction (S40). Sweeps take such faces for welded ones; add() then gives both sides what is left of that
-/// (S35). The stencils beside them read images() (S36). Retains the tractions, and slip and opening.
+/// (S35). The stencils beside them read images() (S36). Retains the tractions, slip and opening, and how far
+/// a face whose strength depends on it has slid.
 template <int D, class Real>
 class SplitFaces {
  public:
@@ -112,6 +113,7 @@ class SplitFaces {
   std::vector<Real> tractions_;  // D of each
   std::vector<Slip> slips_;      // of each, or of none where no face has friction
   std::vector<Work> work_;
+  std::vector<Real> paths_m_;   // of each, or of none where no law has a state
   std::vector<Real> retained_;  // velocities before and behind each across x
   std::array<std::vector<SplitImage<Real>>, D> images_;
 };
