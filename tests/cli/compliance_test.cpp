@@ -95,7 +95,7 @@ TEST_F(Compliance, OfFracturesThatWeakenGoesFromTheCommandLineToTraces) {
   const auto info = done("sw-info w.nc");
   for (const auto* text : {"law slip-weakening", "dynamic friction 0.1", "slip distance 1e-06 m"})
     EXPECT_TRUE(has(info, text)) << info;
-  EXPECT_TRUE(has(done("sw-shoot w.nc" + shot + "--plan -v"), "slip weakening"));
+  EXPECT_TRUE(has(done("sw-shoot w.nc" + shot + "--plan -v -q"), "slip weakening"));
   done("sw-shoot w.nc" + shot + "-q -o weak.sgy");
   EXPECT_NE(run("sw-compare weak.sgy coulomb.sgy --tolerance 0").code, 0);
   const auto warned =
