@@ -53,8 +53,8 @@ struct GatherSection {
 /// sampling.
 std::vector<GatherSection> read_sections(segy::Reader& reader, const TraceChoice& choice);
 
-/// Multiplies the samples by (t / 1 s)^power; times at or before 0 become zero. A power that single precision does
-/// not hold at one of the times is a usage Error.
+/// Multiplies the samples by (t / 1 s)^power; times at or before 0 become zero. A power that single precision
+/// does not hold at one of the times is a usage Error.
 void apply_gain(GatherSection& section, double power);
 
 /// Neighbours that belong together: a shot, or a line of receivers.

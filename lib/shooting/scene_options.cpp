@@ -196,7 +196,7 @@ std::vector<std::string> SceneOptions::check_model(Model<D>& read, double resolu
   in_place(model == "-" ? "standard input" : model, [&] { check(read, limits); });
   // Cells that lose their planes by --without are swept as with them: the response is a difference of the
   // two.
-  const auto inert = leave_out_inert(read, resolution);
+  auto inert = leave_out_inert(read, resolution);
   for (const auto effect : effects_without()) remove_effect(read, effect);
   // What is left must still hold together: planes without friction may slip under the prestress.
   if (!without.empty()) in_place("--without " + without, [&] { check(read, limits); });
