@@ -73,5 +73,9 @@ std::vector<PartedFace<D>> parted_faces(const Model<D>& model, std::int64_t* lef
 /// Those of one set.
 template <int D>
 std::vector<PartedFace<D>> parted_faces(const Model<D>& model, const FractureSet<D>& set);
+template <>
+std::vector<PartedFace<2>> parted_faces(const Model<2>& model, const FractureSet<2>& set);
+template <>
+std::vector<PartedFace<3>> parted_faces(const Model<3>& model, const FractureSet<3>& set);
 
 }  // namespace slipwave
