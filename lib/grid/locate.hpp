@@ -8,6 +8,14 @@
 
 namespace slipwave {
 
+/// How far two points are apart, m.
+template <int D>
+double distance_m(const Point<D>& one, const Point<D>& other) {
+  double squares = 0;
+  for (std::size_t axis = 0; axis < std::size_t(D); ++axis) squares += std::pow(one[axis] - other[axis], 2);
+  return std::sqrt(squares);
+}
+
 /// The cell a point is in. A point on a face is in the cell behind it, the high faces of the grid belong to
 /// the cells before them, and what lies outside counts to the nearest cell.
 template <int D>

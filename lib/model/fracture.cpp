@@ -214,8 +214,8 @@ std::vector<std::string> leave_out_inert(Model<D>& model, double resolution) {
     auto& code = model.fracture[cell];
     if (code == 0) continue;
     const auto& set = model.fracture_sets[code - 1u];
-    const auto rock = material_of(model.medium, cell);
-    const double mu = rock.rho * rock.vs * rock.vs, lambda = rock.rho * rock.vp * rock.vp - 2 * mu;
+    const double vp = double(model.medium.vp[cell]), vs = double(model.medium.vs[cell]),
+                 rho = double(model.medium.rho[cell]), mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
     const bool gone = std::all_of(set.systems.begin(), set.systems.end(), [&](const auto& system) {
       return inert(system, !set.traces.empty(), lambda, mu);
     });

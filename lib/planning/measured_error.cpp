@@ -9,6 +9,7 @@
 
 #include "accuracy/sizes.hpp"
 #include "base/error.hpp"
+#include "grid/locate.hpp"
 #include "scene/orders.hpp"
 
 namespace slipwave {
@@ -90,12 +91,8 @@ std::vector<double> away_from_sources_m(const Survey<D>& survey, std::size_t sho
   std::vector<double> away(receivers.size(), std::numeric_limits<double>::infinity());
   for (const auto* source : survey.sources_of(shot)) {
     if (!point_injection(*source)) continue;
-    for (std::size_t n = 0; n < receivers.size(); ++n) {
-      double squared = 0;
-      for (std::size_t axis = 0; axis < D; ++axis)
-        squared += std::pow(receivers[n].point_m[axis] - source->position_m[axis], 2);
-      away[n] = std::min(away[n], std::sqrt(squared));
-    }
+    for (std::size_t n = 0; n < receivers.size(); ++n)
+      away[n] = std::min(away[n], distance_m<D>(receivers[n].point_m, source->position_m));
   }
   return away;
 }

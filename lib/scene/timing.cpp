@@ -2,10 +2,10 @@
 #include "scene/timing.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
+#include "grid/locate.hpp"
 #include "model/coefficients.hpp"
 
 namespace slipwave {
@@ -39,11 +39,8 @@ Unreached unreached_traces(const Scene<D>& scene) {
       if (plane) continue;
       double earliest_s = std::numeric_limits<double>::infinity();
       for (const auto* source : sources) {
-        double squares = 0;
-        for (std::size_t axis = 0; axis < std::size_t(D); ++axis)
-          squares += std::pow(receiver.point_m[axis] - source->position_m[axis], 2);
-        earliest_s =
-            std::min(earliest_s, source->delay_s + onset_s(source->wavelet) + std::sqrt(squares) / fastest);
+        const double away_m = distance_m<D>(receiver.point_m, source->position_m);
+        earliest_s = std::min(earliest_s, source->delay_s + onset_s(source->wavelet) + away_m / fastest);
       }
       if (earliest_s <= scene.recording.duration_s) continue;
       ++unreached.traces;
