@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "checkpoint/checksum.hpp"
+#include "scene/bands.hpp"
 
 namespace slipwave {
 namespace {
@@ -167,8 +168,8 @@ Identity identity_of(const Scene<D>& scene) {
   const auto& [model, part, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary,
                attenuation] = scene;
   if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
-  const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, monotone, tiling] =
-      numerics;
+  const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, monotone, tiling,
+               bands] = numerics;
   const auto& [components, duration_s, interval_s, fibre, before_s] = recording;
   const auto& [sources, receivers_m, blended, spreads, misplaced] = survey;
   static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);        // changes no result
@@ -199,6 +200,7 @@ Identity identity_of(const Scene<D>& scene) {
       {"number of receivers", std::to_string(spreads ? spreads->count_of(1) : receivers_m.size())},
   };
   if (before_s > 0) identity.push_back({"time before the record", shown(before_s) + " s"});
+  if (!bands.empty()) identity.push_back({"cells", shown(bands)});
   if (monotone) identity.push_back({"criterion of monotonicity", "kept"});
   if (attenuation) identity.push_back({"attenuation", shown_attenuation(*attenuation)});
   for (int axis = 0; axis < D; ++axis)

@@ -33,6 +33,12 @@ struct Tiling {
   bool plain = false;       // no tiles: each sweep and effect on the whole grid, one after the other
 };
 
+/// A range of depths with cells of their own: from a depth, m, on to the next band or the bottom.
+struct Band {
+  double from_m = 0;
+  double spacing_m = 0;
+};
+
 /// How the scene is computed. Defaults are those of sw-shoot.
 struct Numerics {
   int order = 5;                      // of the reconstruction: one of `orders`
@@ -44,6 +50,7 @@ struct Numerics {
   int time_order = 2;     // of the splitting in time: one of `time_orders`
   bool monotone = false;  // sweeps keep to the criterion of monotonicity
   Tiling tiling;
+  std::vector<Band> bands{};  // top to bottom, two or more; empty: all in the cells of the model
 };
 
 /// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included. Where

@@ -18,6 +18,9 @@ struct Subdomain {
   std::int64_t first = 0, last = 0;  // first <= row < last
   /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
+  /// Whether neighbours are bands of other cells: nothing is read or added across the faces to them but by
+  /// sweeps.
+  bool other_cells = false;
   bool slips = false;         // whether anything slips in any part
   bool shear = false;         // whether any part has shear stress: solid cells or bent rows
   bool anisotropic = false;   // whether any part has anisotropic cells

@@ -32,27 +32,12 @@ bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
   return false;
 }
 
-/// Whether rock in 3-D has to be swept by all three waves at once, somewhere: axes that are turned, or rows
-/// that bend.
-template <int D>
-bool couples_pairs(const Medium<D>& medium, int order) {
-  if (any_tilted_axes(medium)) return true;
-  const auto& grid = medium.grid();
-  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
-  for (std::int64_t row = 0; D == 3 && grid.rows && row < grid.shape[D - 1]; ++row) {
-    if (!near_bent_rows(grid, row + grid.first[D - 1], nearness_of(order))) continue;
-    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
-      if (is_anisotropic(medium, cell)) return true;
-  }
-  return false;
-}
-
 template <class Value, int D>
-Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
+Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held, std::int64_t row) {
   if (field.empty()) return field;
   Field<D, Value> part(held);
   const std::int64_t a_row = held.size() / held.shape[D - 1];
-  const auto first = field.begin() + held.first[D - 1] * a_row;
+  const auto first = field.begin() + row * a_row;
   std::copy(first, first + held.size(), part.begin());
   return part;
 }
@@ -64,6 +49,19 @@ bool has_shear(const Medium<D>& medium) {
   if (const auto& rows = medium.grid().rows; rows && rows->first_bent_row()) return true;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (medium.is_solid(cell)) return true;
+  return false;
+}
+
+template <int D>
+bool couples_pairs(const Medium<D>& medium, int order) {
+  if (any_tilted_axes(medium)) return true;
+  const auto& grid = medium.grid();
+  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
+  for (std::int64_t row = 0; D == 3 && grid.rows && row < grid.shape[D - 1]; ++row) {
+    if (!near_bent_rows(grid, row + grid.first[D - 1], nearness_of(order))) continue;
+    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
+      if (is_anisotropic(medium, cell)) return true;
+  }
   return false;
 }
 
@@ -92,6 +90,16 @@ std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& m
       }
     }
   return speeds;
+}
+
+template <int D>
+Medium<D> rows_of(const Medium<D>& medium, std::int64_t first, std::int64_t last) {
+  auto held = medium.grid();
+  held.first[D - 1] += first;
+  held.shape[D - 1] = last - first;
+  Medium<D> rows;
+  for (const Property property : medium.properties()) rows[property] = rows_of(medium[property], held, first);
+  return rows;
 }
 
 int steps_of_a_tile(const Tiling& tiling) { return tiling.steps > 0 ? tiling.steps : usual_steps; }
@@ -191,15 +199,12 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
   whole.subdomain = part;
   if (part.is_whole()) return whole;
   const auto [first, last] = rows_held(part);
-  auto held = whole.model.grid();
-  held.first[D - 1] = first;
-  held.shape[D - 1] = last - first;
   auto& model = whole.model;
-  for (const Property property : model.medium.properties())
-    model.medium[property] = rows_of(model.medium[property], held);
-  model.fracture = rows_of(model.fracture, held);
-  model.fracture_share = rows_of(model.fracture_share, held);
-  for (auto& component : model.prestress_pa) component = rows_of(component, held);
+  model.medium = rows_of(model.medium, first, last);
+  const auto held = model.grid();
+  model.fracture = rows_of(model.fracture, held, first);
+  model.fracture_share = rows_of(model.fracture_share, held, first);
+  for (auto& component : model.prestress_pa) component = rows_of(component, held, first);
   return whole;
 }
 
@@ -223,6 +228,10 @@ template bool has_shear(const Medium<2>&);
 template bool has_shear(const Medium<3>&);
 template bool has_void(const Medium<2>&);
 template bool has_void(const Medium<3>&);
+template bool couples_pairs(const Medium<2>&, int);
+template bool couples_pairs(const Medium<3>&, int);
+template Medium<2> rows_of(const Medium<2>&, std::int64_t, std::int64_t);
+template Medium<3> rows_of(const Medium<3>&, std::int64_t, std::int64_t);
 template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<2>&, const Subdomain&);
 template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<3>&, const Subdomain&);
 

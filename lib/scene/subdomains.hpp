@@ -23,6 +23,15 @@ bool has_shear(const Medium<D>& medium);
 template <int D>
 bool has_void(const Medium<D>& medium);
 
+/// Whether rock in 3-D has to be swept by all three waves at once, somewhere: axes that are turned, or rows
+/// that bend.
+template <int D>
+bool couples_pairs(const Medium<D>& medium, int order);
+
+/// Rows first <= row < last of a medium, counted from its first one, as a part of its grid.
+template <int D>
+Medium<D> rows_of(const Medium<D>& medium, std::int64_t first, std::int64_t last);
+
 /// Steps of a time tile.
 int steps_of_a_tile(const Tiling& tiling);
 

@@ -12,6 +12,7 @@
 #include "base/parse.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "scene/bands.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/subdomains.hpp"
 #include "shooting/trace_wavelet.hpp"
@@ -179,6 +180,7 @@ Scene<D> SceneOptions::without_model() const {
   scene.numerics.tiling.plain = executor == "plain";
   scene.numerics.time_order = std::stoi(time_order);
   scene.numerics.monotone = monotone;
+  scene.numerics.bands = parse_bands(bands);
   for (const auto effect : effects_without()) scene.with_slip &= effect != ModelEffect::slip;
   return scene;
 }

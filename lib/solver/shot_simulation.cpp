@@ -27,15 +27,22 @@ constexpr double largest_addition = 1e-20;
 /// at the source then count as zero, so that the cells in front of the waves are zero and can be skipped
 /// (ActiveCells). 1 where that gains nothing; at most 1 with fractures, whose strengths must stay normal
 /// numbers. The same with slip and without, so that the difference of both is the work of slip alone.
-/// Collective where there are ranks.
+/// `rate` is rate_added() of all ranks or bands.
 template <int D>
-double unit_of(const Scene<D>& scene, std::size_t shot, double dt_s, Ranks* ranks) {
-  const auto sources = scene.survey.sources_of(shot);
-  if (!point_injection(*sources.front()) || scene.numerics.double_precision) return 1;
+double unit_of(const Scene<D>& scene, double dt_s, double rate) {
+  if (scene.numerics.double_precision || !(rate > 0)) return 1;
+  const double unit = std::exp2(std::round(std::log2(largest_addition / (dt_s * rate))));
+  return scene.model.fracture_sets.empty() ? unit : std::min(unit, 1.);
+}
+
+/// The largest rate at which point sources in the cells of a scene change a velocity there, m/s2, with a
+/// wavelet of 1; 0 where it has none.
+template <int D>
+double rate_added(const Scene<D>& scene, std::size_t shot) {
   const auto& medium = scene.model.medium;
-  const double volume = std::pow(medium.grid().spacing_m, D);
   double largest = 0;
-  for (const auto* source : sources) {
+  for (const auto* source : scene.survey.sources_of(shot)) {
+    if (!point_injection(*source)) return 0;
     if (!scene.subdomain.owns(medium.grid(), source->position_m)) continue;
     const auto injection = point_injection(*source);
     const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source->position_m)));
@@ -46,10 +53,7 @@ double unit_of(const Scene<D>& scene, std::size_t shot, double dt_s, Ranks* rank
         largest = std::max(largest, std::abs(injection->moment_rate(i, j)) / impedance);
     }
   }
-  largest = largest_of(ranks, largest);
-  if (!(largest > 0)) return 1;
-  const double unit = std::exp2(std::round(std::log2(largest_addition * volume / (dt_s * largest))));
-  return scene.model.fracture_sets.empty() ? unit : std::min(unit, 1.);
+  return largest / std::pow(medium.grid().spacing_m, D);
 }
 
 /// The medium whose stress relaxes by steps; nothing where the scene does not attenuate.
@@ -88,15 +92,25 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
 
 }  // namespace
 
+template <int D>
+InAllBands in_all_bands(const std::vector<Scene<D>>& bands, std::size_t shot) {
+  double rate = 0, velocity = 0;
+  for (const auto& band : bands) {
+    rate = std::max(rate, rate_added(band, shot));
+    velocity += largest_velocity(band, shot, nullptr);
+  }
+  return {unit_of(bands.front(), time_step_s(bands.front()), rate), velocity};
+}
+
 template <int D, class Real>
 ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink,
-                                        Ranks* ranks)
+                                        Ranks* ranks, const InAllBands* bands)
     : ranks_(ranks),
       scene_(&scene),
       shot_(shot),
       dt_s_(time_step_s(scene)),
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)),
-      unit_(unit_of(scene, shot, dt_s_, ranks)),
+      unit_(bands ? bands->unit : unit_of(scene, dt_s_, largest_of(ranks, rate_added(scene, shot)))),
       attenuating_(attenuating_medium(scene, dt_s_)),
       domain_(domain_of(scene, medium(), shot)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
@@ -109,7 +123,8 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       step_(builder().time_step(sweeps_, effects_, records(), steps_)),
       halo_(make_halo()),
       executor_(builder().executor(sweeps_, step_, halo_.get())),
-      stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
+      stability_(state_, domain_, unit_,
+                 bands ? bands->largest_velocity : largest_velocity(scene, shot, ranks)) {
   // Everything that depends on them is built.
   domain_.release_impedances();
   attenuating_.reset();
@@ -276,6 +291,8 @@ std::int64_t ShotSimulation<D, Real>::building_bytes() const {
   return std::max<std::int64_t>(0, building - state_.fields.size() * std::int64_t(sizeof(Real)));
 }
 
+template InAllBands in_all_bands(const std::vector<Scene<2>>&, std::size_t);
+template InAllBands in_all_bands(const std::vector<Scene<3>>&, std::size_t);
 template class ShotSimulation<2, float>;
 template class ShotSimulation<2, double>;
 template class ShotSimulation<3, float>;

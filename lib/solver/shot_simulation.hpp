@@ -11,9 +11,20 @@
 #include "solver/record/recorder.hpp"
 #include "solver/record/snapshot_recorder.hpp"
 #include "solver/record/stability_check.hpp"
+#include "solver/schedule/plain.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
+
+/// What grids that one shot is simulated in together have alike (BandedShot).
+struct InAllBands {
+  double unit = 1;              // of the fields
+  double largest_velocity = 0;  // beyond which they have diverged, m/s
+};
+
+/// For the scenes of all bands.
+template <int D>
+InAllBands in_all_bands(const std::vector<Scene<D>>& bands, std::size_t shot);
 
 /// Everything one shot needs: the fields, their sweeps, the effects and records of its time step
 /// (build_step.hpp), and what executes it.
@@ -23,7 +34,7 @@ class ShotSimulation {
   /// Collective where there are `ranks` (may be null), and so are run_to(), take_gather() and report(); the
   /// scene is then the subdomain of each. Keeps references.
   ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots,
-                 Ranks* ranks = nullptr);
+                 Ranks* ranks = nullptr, const InAllBands* bands = nullptr);
 
   /// Advances the fields to the end of step last - 1, or less far once `pause` returns true (any thread calls
   /// it from time to time). `progress` is told of each step. Throws DivergedFields.
@@ -45,6 +56,11 @@ class ShotSimulation {
   ShotReport report() const;
   const Domain<D>& domain() const { return domain_; }
   const Sweeps<D, Real>& sweeps() const { return sweeps_; }
+  // For steps that are made together with those of other grids, by a plain executor.
+  Sweeps<D, Real>& sweeps() { return sweeps_; }
+  State<D, Real>& state() { return state_; }
+  PlainExecutor<D, Real>& plain() { return dynamic_cast<PlainExecutor<D, Real>&>(*executor_); }
+  void made(std::int64_t steps) { done_ = steps; }
   /// What it holds: while it runs all but the samples; of what it records, with them; and while it is built
   /// beside fields and effects.
   std::int64_t memory_bytes() const;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/surroundings.hpp"
+#include "solver/banded_shot.hpp"
 #include "solver/shot_simulation.hpp"
 
 namespace slipwave {
@@ -77,22 +78,45 @@ Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulatio
   return sound_until(what, sound);
 }
 
-template <int D, class Real>
-Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-                const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
-  solver::ShotSimulation<D, Real> simulation(scene, shot, snapshots, ranks);
+/// Runs a simulation to its end, interrupted by pauses.
+template <class Simulation>
+void run(Simulation& simulation, const Progress& progress, Pauses* pauses) {
   const Serialize serialize = [&simulation](Archive& archive) { simulation.serialize(archive); };
   std::function<bool()> wanted;
   if (pauses) {
     pauses->begin(serialize);
     wanted = [pauses] { return pauses->wanted(); };
   }
+  for (;;) {
+    simulation.run_to(simulation.steps(), progress, wanted);
+    if (simulation.done() == simulation.steps()) return;
+    pauses->pause(serialize, {simulation.done(), simulation.steps()});
+  }
+}
+
+template <int D, class Real>
+Gather shoot_in_bands(const Scene<D>& scene, std::size_t shot, const Progress& progress, Pauses* pauses,
+                      ShotReport* report) {
+  solver::BandedShot<D, Real> simulation(scene, shot);
   try {
-    for (;;) {
-      simulation.run_to(simulation.steps(), progress, wanted);
-      if (simulation.done() == simulation.steps()) break;
-      pauses->pause(serialize, {simulation.done(), simulation.steps()});
-    }
+    run(simulation, progress, pauses);
+  } catch (const solver::DivergedFields<D>& seen) {
+    const auto dt_s = seen.first().time.dt_s;
+    const auto sound = solver::StabilityCheck<D, Real>::last_before(seen.first().time.step + 1);
+    throw Unstable(seen.what(), shot, sound_part(simulation.take_gather(), scene.recording, sound, dt_s),
+                   double(sound) * dt_s);
+  }
+  if (report) *report = simulation.report();
+  return simulation.take_gather();
+}
+
+template <int D, class Real>
+Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
+                const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
+  if (!scene.numerics.bands.empty()) return shoot_in_bands<D, Real>(scene, shot, progress, pauses, report);
+  solver::ShotSimulation<D, Real> simulation(scene, shot, snapshots, ranks);
+  try {
+    run(simulation, progress, pauses);
   } catch (const solver::DivergedFields<D>& seen) {
     throw unstable(scene, shot, simulation, seen, bool(snapshots), ranks);
   }

@@ -18,48 +18,52 @@ PlainExecutor<D, Real>::PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
   copy_ = Buffer<Real>(copy_pitch_ * state.layout.rows());
 }
 
-/// A step is its list of sweeps but the last, along x, then end_of_step(), which contains that last half
+/// A step is its list of sweeps but the last, along x, then end(), which contains that last half
 /// sweep and the first one of the next step. The very first half sweep comes before all steps.
 template <int D, class Real>
 std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
                                          const std::function<bool()>& pause) {
   const auto& sweeps = step_.sweeps();
-  if (first == 0) sweeps_.along(0, half_);
+  if (first == 0) start();
   for (auto n = first; n < last; ++n) {
     if (n > first && pause && pause()) return n;
     const StepTime time{n, step_.dt_s()};
-    step_.begin(time);
-    for (std::size_t k = 1; k + 1 < sweeps.size(); ++k) {
-      sweeps_.along(sweeps[k].axis, Real(sweeps[k].fraction), {n, k});
-      after_sweep(k, time);
-      if (sweeps[k].axis == D - 1) swept_ += state_.layout.shape()[0] * state_.layout.lines();
-    }
-    end_of_step(time);
-    step_.finish(time);
+    begin(time);
+    for (std::size_t k = 1; k + 1 < sweeps.size(); ++k) sweep(k, time);
+    end(time);
   }
   return last;
 }
 
 template <int D, class Real>
+void PlainExecutor<D, Real>::sweep(std::size_t number, const StepTime& time) {
+  const auto& [axis, fraction] = step_.sweeps()[number];
+  sweeps_.along(axis, Real(fraction), {time.step, number});
+  after_sweep(number, time);
+  if (axis == D - 1) swept_ += state_.layout.shape()[0] * sweeps_.own_lines().count();
+}
+
+template <int D, class Real>
 void PlainExecutor<D, Real>::after_sweep(std::size_t sweep, const StepTime& time) {
   if (!step_.acts_after_sweep(sweep)) return;
-  for (std::int64_t row = 0; row < state_.layout.lines(); ++row)
+  for (auto row = sweeps_.own_lines().first; row < sweeps_.own_lines().last; ++row)
     step_.apply_after_sweep(sweep, time, state_.row_fields(row), {0, state_.layout.shape()[0]});
 }
 
 /// Rows along x do not depend on each other, except for the velocities that corrections at free sides read.
 template <int D, class Real>
-void PlainExecutor<D, Real>::end_of_step(const StepTime& time) {
-  const std::int64_t rows = state_.layout.lines();
+void PlainExecutor<D, Real>::end(const StepTime& time) {
+  const auto rows = sweeps_.own_lines();
   if (sweeps_.corrects_surface(0))
-    for (std::int64_t row = 0; row < rows; ++row) sweeps_.retain(0, row, {0, state_.layout.shape()[0]});
-  for (std::int64_t row = 0; row < rows; ++row) {
+    for (auto row = rows.first; row < rows.last; ++row) sweeps_.retain(0, row, {0, state_.layout.shape()[0]});
+  for (auto row = rows.first; row < rows.last; ++row) {
     sweeps_.correct_side_surfaces(row, {0, state_.layout.shape()[0]});
     if (step_.splits(time, row))
       split_row(time, row);
     else
       merged_row(time, row);
   }
+  step_.finish(time);
 }
 
 /// Two half sweeps, and between them the effects and records at the end of the step.

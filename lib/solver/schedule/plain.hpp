@@ -17,13 +17,18 @@ class PlainExecutor : public Executor {
   /// Keeps references.
   PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step);
   using Executor::run;
+  // What run() is made of, for grids that advance together (BandedShot): the first half sweep of all; then of
+  // each step its beginning, its sweeps but the first and the last, and its end.
+  void start() { sweeps_.along(0, half_); }
+  void begin(const StepTime& time) { step_.begin(time); }
+  void sweep(std::size_t number, const StepTime& time);
+  void end(const StepTime& time);
   std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
   void serialize(Archive& archive) override;
   std::int64_t swept_cells() const override { return swept_; }
 
  private:
   void after_sweep(std::size_t sweep, const StepTime& time);
-  void end_of_step(const StepTime& time);
   void split_row(const StepTime& time, std::int64_t row);
   void merged_row(const StepTime& time, std::int64_t row);
 

@@ -336,8 +336,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
              material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&
              (!state.anisotropic || same_anisotropy(at, i, j));
     };
-    // In bent rows no two cells are alike.
-    const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
+    // In bent rows no two cells are alike; faces to another band are all solved.
+    const std::int64_t last = domain.bent(at[D - 1]) || domain.beside_band(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
       if (x - first >= std::min(shortest_run, nx) && own_loops[std::size_t(first)])

@@ -128,6 +128,14 @@ class Domain {
     if (!anisotropic_) material_kind_ = shears ? MaterialKind::isotropic : MaterialKind::fluid;
   }
   bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
+  /// Whether a row has a face that two bands of cells share.
+  bool beside_band(std::int64_t row) const {
+    const auto shared = [&](int side) {
+      const auto face = side ? own.last : own.first;
+      return subdomain.cut(side) && (row == face || row + 1 == face);
+    };
+    return subdomain.other_cells && (shared(0) || shared(1));
+  }
   /// Rows of neighbouring subdomains that it holds on either side, at most.
   std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
   /// Cell of the model whose medium a cell of the computed grid has.

@@ -92,6 +92,7 @@ Box<D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings, std
   };
   const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
     if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
+    if (axis == D - 1 && domain.subdomain.other_cells && !domain.owns(layer)) return false;
     return all_of_layer<D>(box.cells, axis, layer, [&](const Index<D>& at) {
       Index<D> inside = at;
       inside[axis] += layer < centre[axis] ? 1 : -1;

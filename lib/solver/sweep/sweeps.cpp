@@ -118,6 +118,7 @@ template <int D, class Real>
 Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int order)
     : state_(state),
       kernels_{&kernels<Real>(order, false), &kernels<Real>(order, true)},
+      own_{0, domain.grid.shape[z_axis]},
       edges_(domain.edges),
       order_(order),
       reach_(reach_of(order)),
@@ -571,9 +572,10 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   for (std::int64_t line = 0; line < lines && axis < z_axis && corrects_surface(axis); ++line)
     retain(axis, line, {0, layout.shape()[0]});
   if (axis == 0) {
-    parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
+    const auto own = own_lines();
+    parallel_for(own.count(), 4, [&](std::int64_t begin, std::int64_t end, int worker) {
       StripeBoundary<Real> boundary{};
-      for (std::int64_t line = begin; line < end; ++line) {
+      for (auto line = own.first + begin; line < own.first + end; ++line) {
         correct_side_surfaces(line, {0, layout.shape()[0]});
         along_x(line, {0, layout.shape()[0]}, scale, boundary, work[std::size_t(worker)]);
       }
@@ -581,20 +583,24 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
     return;
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
+  // Beyond its own rows a face that is shared needs the outgoing waves of one more.
+  const IndexRange steps =
+      axis == z_axis ? IndexRange{shared_[0] ? own_.first - 1 + reach_ : 0, own_.last + rows_behind()}
+                     : IndexRange{0, rows + rows_behind()};
+  const IndexRange sheets = axis == z_axis ? IndexRange{0, lines / rows} : own_;
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (auto& surface : surfaces_[axis])
     surface.update_corrections(state_, {0, std::numeric_limits<std::int64_t>::max()});
   if (axis == z_axis) corrections_.update_all(state_);
   if (axis == z_axis && split_) split_->update_all();
-  const std::int64_t sheets = layout.lines() / rows;
-  parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
+  parallel_for(sheets.count() * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
       const auto stripe = n % stripes;
       const IndexRange columns{stripe * stripe_width, std::min((stripe + 1) * stripe_width, nx)};
       auto ring = make_ring(axis, columns.first, columns.count());
       Index<D> at{};
-      if (D == 3) at[std::size_t(3 - axis)] = n / stripes;
-      for (std::int64_t step = 0; step < rows + rows_behind(); ++step)
+      if (D == 3) at[std::size_t(3 - axis)] = sheets.first + n / stripes;
+      for (auto step = steps.first; step < steps.last; ++step)
         across(axis, at, step, columns, scale, ring, work[std::size_t(worker)]);
     }
   });
@@ -894,6 +900,7 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
               below, 0, part, [](const IndexRange&) {}, solve);
         },
         solve);
+    share(axis, at, row, wide, ring);
   }
   work.prefetch().prefetch_one();
   const std::int64_t done = step - rows_behind();
@@ -902,6 +909,36 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
            {ring.faces(done, x), ring.faces(done + 1, x), ring.outgoing(done - 1, x), ring.outgoing(done, x),
             ring.outgoing(done + 1, x)},
            work, true);
+}
+
+template <int D, class Real>
+std::array<SharedFaces<Real>*, 2> Sweeps<D, Real>::share_faces(const Domain<D>& domain) {
+  own_ = domain.own;
+  const auto& layout = state_.layout;
+  for (const int side : {0, 1}) {
+    if (!domain.subdomain.cut(side)) continue;
+    SharedFaces<Real> face{.row = side ? own_.last : own_.first, .pitch = layout.padded_nx()};
+    face.rows = std::int64_t(2) * make_ring(z_axis, 0, 0).pairs();
+    face.values.resize(std::size_t(layout.lines() / layout.shape()[z_axis] * face.rows * face.pitch));
+    shared_[std::size_t(side)] = std::make_unique<SharedFaces<Real>>(std::move(face));
+  }
+  return {shared_[0].get(), shared_[1].get()};
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::share(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                            Ring<Real>& ring) {
+  if (axis != z_axis) return;
+  for (const auto& face : shared_) {
+    if (!face || face->row != row) continue;
+    const auto states = ring.faces(row, columns.first);
+    Real* const values = face->of_line(D == 3 ? at[1] : 0) + columns.first;
+    for (std::int64_t n = 0; n < face->rows; ++n) {
+      Real *const here = states.first + n * states.pitch, *const there = values + n * face->pitch;
+      face->given ? std::copy(there, there + columns.count(), here)
+                  : std::copy(here, here + columns.count(), there);
+    }
+  }
 }
 
 template <int D, class Real>
@@ -958,6 +995,9 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   const auto& layout = state_.layout;
   const std::int64_t done = row - std::max(reach_, 1);
   if (monotone_ || done < 0 || row >= layout.shape()[axis]) return false;
+  if (axis == z_axis)
+    for (const auto& face : shared_)
+      if (face && face->row == row) return false;
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};

@@ -22,6 +22,17 @@
 
 namespace slipwave::solver {
 
+/// The interface states of a face between rows that two grids share, in sweeps along the last axis: what one
+/// finds there, and what the other is given (theory.md (B4)).
+template <class Real>
+struct SharedFaces {
+  std::int64_t row = 0;  // the face before it
+  bool given = false;
+  std::int64_t rows = 0, pitch = 0;  // states a line, in the order of InterfaceStates; columns
+  std::vector<Real> values{};        // [line along x][state][column]
+  Real* of_line(std::int64_t line) { return values.data() + line * rows * pitch; }
+};
+
 /// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
 /// by `scale` of the time step, back in time where it is negative, under the part of the equations with
 /// derivatives along its axis. Rows of a sweep along x, and columns of a sweep across, do not depend on each
@@ -41,6 +52,15 @@ class Sweeps {
   void split_faces(const Domain<D>& domain, double dt_s, double unit);
   /// Null where there are none.
   SplitFaces<D, Real>* split() const { return split_.get(); }
+  /// From now on along() keeps to the rows of the last axis that the domain owns, and to what sweeps of them
+  /// read. Returns the faces to the grids above and below, where there are any, to be given where a neighbour
+  /// has more columns.
+  std::array<SharedFaces<Real>*, 2> share_faces(const Domain<D>& domain);
+  /// Lines along x that along() sweeps.
+  IndexRange own_lines() const {
+    const auto of_row = state_.layout.lines() / state_.layout.shape()[z_axis];
+    return {own_.first * of_row, own_.last * of_row};
+  }
   static constexpr std::size_t most_filters = 2;
   /// From now on outgoing waves keep to the criterion of monotonicity (C1). Throws std::logic_error where
   /// rows are bent.
@@ -215,6 +235,8 @@ class Sweeps {
   /// these columns enter them.
   void add_tractions(const FreeSurface<D, Real>& surface, const Index<D>& line, const IndexRange& columns,
                      OutgoingWaves<Real> entering) const;
+  /// Keeps or sets the states of a face that another grid shares.
+  void share(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Ring<Real>& ring);
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
@@ -227,6 +249,8 @@ class Sweeps {
 
   State<D, Real>& state_;
   std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
+  std::array<std::unique_ptr<SharedFaces<Real>>, 2> shared_;
+  IndexRange own_;  // rows of the last axis that along() sweeps
   std::vector<SweepFilter<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;

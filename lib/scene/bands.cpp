@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/bands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "model/coefficients.hpp"
+#include "model/parted_faces.hpp"
+#include "model/tilted_mean.hpp"
+#include "scene/subdomains.hpp"
+
+namespace slipwave {
+namespace {
+
+[[noreturn]] void refuse(const std::string& found, const std::string& expected) {
+  throw Error("--bands: found " + found + ", expected " + expected, ErrorKind::usage);
+}
+
+/// Places that differ by less than this part of a cell are one: what depths lose to rounding.
+constexpr double rounding = 1e-6;
+
+/// How many of these cells make up a length, where it is a whole number of them; else 0.
+std::int64_t whole_cells(double length_m, double cell_m) {
+  const double cells = length_m / cell_m;
+  return std::abs(cells - std::round(cells)) < rounding * std::max(1., cells) ? std::llround(cells) : 0;
+}
+
+/// A scene in the cells of a band, and the rows of it that the band has.
+template <int D>
+struct InCells {
+  Scene<D> scene;
+  std::int64_t first = 0, last = 0;
+  const Grid<D>& grid() const { return scene.model.grid(); }
+  std::int64_t rows() const { return last - first; }
+};
+
+/// Depth of a row of faces that is level, m.
+template <int D>
+double depth_of_face(const Grid<D>& grid, std::int64_t row) {
+  return grid.rows ? grid.rows->row(row)[0] : grid.origin_m[D - 1] + double(row) * grid.spacing_m;
+}
+
+/// The row of a grid that begins at a depth, between level rows.
+template <int D>
+std::int64_t row_at(const Grid<D>& grid, double depth_m, std::int64_t level_beside) {
+  const std::int64_t rows = grid.shape[D - 1];
+  for (std::int64_t row = 1; row < rows; ++row) {
+    if (std::abs(depth_of_face(grid, row) - depth_m) > rounding * grid.spacing_m) continue;
+    for (auto near = row - level_beside; grid.rows && near <= row + level_beside; ++near)
+      if (!grid.rows->row_is_level(std::clamp<std::int64_t>(near, 0, rows)))
+        refuse("a band from z=" + shown(depth_m) + " m on, where rows near it follow a horizon that dips",
+               "it where " + std::to_string(level_beside) + " rows above and below are level");
+    return row;
+  }
+  refuse("a band from z=" + shown(depth_m) + " m on, where no row of cells of " + shown(grid.spacing_m) +
+             " m begins",
+         "it at an interface that rows follow, or at a multiple of the cells of both bands");
+}
+
+template <int D>
+void check_sides(const Grid<D>& one, const Grid<D>& other) {
+  for (int axis = 0; axis < D - 1; ++axis) {
+    const double length = double(one.shape[axis]) * one.spacing_m,
+                 beside = double(other.shape[axis]) * other.spacing_m;
+    if (std::abs(length - beside) > rounding * one.spacing_m)
+      refuse("a model of " + shown(std::min(length, beside)) + " m along " +
+                 std::string(1, axis_names<D>()[std::size_t(axis)]) + " and cells of " +
+                 shown(std::max(one.spacing_m, other.spacing_m)) + " m",
+             "cells of each band that divide it");
+  }
+}
+
+/// The model in the cells of each band.
+template <int D>
+std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene) {
+  const auto& bands = scene.numerics.bands;
+  const auto beside = rows_beside_band(scene.numerics.order);
+  std::vector<InCells<D>> all;
+  for (const auto& band : bands) {
+    all.push_back({in_cells_of(scene, band.spacing_m)});
+    all.back().last = all.back().grid().shape[D - 1];
+  }
+  for (std::size_t n = 1; n < all.size(); ++n) {
+    check_sides(all[n - 1].grid(), all[n].grid());
+    all[n].first = row_at(all[n].grid(), bands[n].from_m, beside);
+    all[n - 1].last = row_at(all[n - 1].grid(), bands[n].from_m, beside);
+  }
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (all[n].rows() < beside)
+      refuse(
+          "a band of " + std::to_string(all[n].rows()) + " rows from z=" + shown(bands[n].from_m) + " m on",
+          "at least " + std::to_string(beside) + " at order " + std::to_string(scene.numerics.order));
+  return all;
+}
+
+/// A row of a band's model: that of one of the scenes in cells.
+template <int D>
+struct RowOf {
+  const InCells<D>* from;
+  std::int64_t row;
+};
+
+/// The rows that a band holds: its own and, beyond, some of its neighbours.
+template <int D>
+std::vector<RowOf<D>> rows_of_band(const std::vector<InCells<D>>& all, std::size_t band,
+                                   std::int64_t beside) {
+  std::vector<RowOf<D>> rows;
+  const auto add = [&](const InCells<D>& from, std::int64_t first, std::int64_t last) {
+    for (auto row = first; row < last; ++row) rows.push_back({&from, row});
+  };
+  if (band > 0) add(all[band - 1], all[band - 1].last - beside, all[band - 1].last);
+  add(all[band], all[band].first, all[band].last);
+  if (band + 1 < all.size()) add(all[band + 1], all[band + 1].first, all[band + 1].first + beside);
+  return rows;
+}
+
+/// Depths of the corners of these rows in the columns of a grid.
+template <int D>
+std::shared_ptr<const RowDepths<D>> depths_of(const Grid<D>& grid, const std::vector<RowOf<D>>& rows) {
+  auto cells = grid.shape;
+  cells[D - 1] = std::int64_t(rows.size());
+  std::size_t a_row = 1;
+  for (int axis = 0; axis < D - 1; ++axis) a_row *= std::size_t(cells[axis] + 1);
+  std::vector<double> corners_m;
+  corners_m.reserve(a_row * (rows.size() + 1));
+  const auto add = [&](const Grid<D>& from, std::int64_t row) {
+    if (from.rows && from.rows->row(row).size() == a_row) {
+      const auto of_row = from.rows->row(row);
+      corners_m.insert(corners_m.end(), of_row.begin(), of_row.end());
+    } else {
+      corners_m.insert(corners_m.end(), a_row, depth_of_face(from, row));
+    }
+  };
+  for (const auto& of : rows) add(of.from->grid(), of.row);
+  add(rows.back().from->grid(), rows.back().row + 1);
+  return std::make_shared<const RowDepths<D>>(cells, std::move(corners_m));
+}
+
+/// The cell of another band that stands for a cell of this one: that round its centre, or the one behind it.
+template <int D>
+Index<D> cell_beside(const Grid<D>& grid, const Index<D>& at, const RowOf<D>& row) {
+  Index<D> cell = at;
+  for (int axis = 0; axis < D - 1; ++axis)
+    cell[axis] = std::int64_t((double(at[axis]) + 0.5) * grid.spacing_m / row.from->grid().spacing_m);
+  cell[D - 1] = row.row;
+  return cell;
+}
+
+/// Rows of fields of the scenes in cells, in the columns of the first one.
+template <int D>
+class RowsOfFields {
+ public:
+  RowsOfFields(const Grid<D>& grid, const std::vector<RowOf<D>>& rows) : grid_(grid), rows_(rows) {}
+  /// `of(scene)` is the field of a scene; empty where that of the band is.
+  template <class Value, class Of>
+  Field<D, Value> operator()(const Field<D, Value>& own, Of&& of) const {
+    if (own.empty()) return {};
+    Field<D, Value> field(grid_);
+    for (std::int64_t n = 0; n < grid_.size(); ++n) {
+      const auto at = grid_.index(n);
+      const auto& row = rows_[std::size_t(at[D - 1])];
+      const auto& from = of(row.from->scene);
+      if (!from.empty()) field[std::size_t(n)] = from(cell_beside(grid_, at, row));
+    }
+    return field;
+  }
+
+ private:
+  const Grid<D>& grid_;
+  const std::vector<RowOf<D>>& rows_;
+};
+
+/// The model of these rows in the columns of one of the scenes. Nothing slips in rows of other bands.
+template <int D>
+Model<D> model_of_rows(const InCells<D>& own, const std::vector<RowOf<D>>& rows) {
+  const auto& whole = own.scene.model;
+  Grid<D> grid = whole.grid();
+  grid.shape[D - 1] = std::int64_t(rows.size());
+  grid.origin_m[D - 1] = depth_of_face(rows.front().from->grid(), rows.front().row);
+  grid.rows = depths_of(grid, rows);
+  const RowsOfFields<D> rows_of(grid, rows);
+  Model<D> model;
+  model.title = whole.title, model.source = whole.source, model.history = whole.history;
+  for (const Property property : whole.medium.properties())
+    model.medium[property] = rows_of(
+        whole.medium[property], [property](const Scene<D>& scene) -> const auto& {
+          return scene.model.medium[property];
+        });
+  model.fracture = rows_of(
+      whole.fracture, [](const Scene<D>& scene) -> const auto& { return scene.model.fracture; });
+  for (std::int64_t n = 0; n < std::int64_t(model.fracture.size()); ++n)
+    if (rows[std::size_t(grid.index(n)[D - 1])].from != &own) model.fracture[std::size_t(n)] = 0;
+  model.fracture_sets = whole.fracture_sets;
+  model.fracture_share = rows_of(
+      whole.fracture_share, [](const Scene<D>& scene) -> const auto& { return scene.model.fracture_share; });
+  for (std::size_t n = 0; n < whole.prestress_pa.size(); ++n)
+    model.prestress_pa.push_back(rows_of(
+        whole.prestress_pa[n], [n](const Scene<D>& scene) -> const auto& {
+          return scene.model.prestress_pa[n];
+        }));
+  return model;
+}
+
+/// What a subdomain knows of the whole model.
+template <int D>
+Subdomain of_whole(const std::vector<InCells<D>>& all) {
+  Subdomain whole;
+  whole.other_cells = true;
+  for (const auto& each : all) {
+    const auto& medium = each.scene.model.medium;
+    whole.slips |= each.scene.slips();
+    whole.shear |= has_shear(medium);
+    whole.anisotropic |= anisotropic_cells(medium) > 0;
+    whole.tilted |= couples_pairs(medium, each.scene.numerics.order);
+    whole.tilted_means |= tilted_means(medium) > 0;
+    whole.has_void |= has_void(medium);
+    whole.fastest = std::max(whole.fastest, fastest_speed(medium));
+    whole.fastest_across_cells = std::max(whole.fastest_across_cells, fastest_across_cells(medium));
+  }
+  return whole;
+}
+
+/// The time step at which no wave of any band crosses more than its share of a cell, s.
+template <int D>
+double time_step_of_bands(const std::vector<InCells<D>>& all) {
+  double step_s = std::numeric_limits<double>::infinity();
+  for (const auto& each : all)
+    step_s = std::min(step_s, each.grid().spacing_m / fastest_across_cells(rows_of(each.scene.model.medium,
+                                                                                   each.first, each.last)));
+  return all.front().scene.numerics.cfl * step_s;
+}
+
+double largest_of_bands(const std::vector<Band>& bands) {
+  double largest = 0;
+  for (const auto& band : bands) largest = std::max(largest, band.spacing_m);
+  return largest;
+}
+
+template <int D>
+void check_bands(const Scene<D>& scene) {
+  const auto& bands = scene.numerics.bands;
+  const double largest = largest_of_bands(bands);
+  for (std::size_t n = 0; n < bands.size(); ++n) {
+    if (!whole_cells(largest, bands[n].spacing_m))
+      refuse("cells of " + shown(bands[n].spacing_m) + " and of " + shown(largest) + " m",
+             "each to divide the largest");
+    if (n == 0) continue;
+    const double one = bands[n - 1].spacing_m, other = bands[n].spacing_m;
+    const auto ratio = whole_cells(std::max(one, other), std::min(one, other));
+    if (ratio < 2 || ratio > widest_step_of_bands)
+      refuse("cells of " + shown(one) + " m beside cells of " + shown(other) + " m",
+             "one of them 2, 3 or " + std::to_string(widest_step_of_bands) + " times the other");
+  }
+  if (scene.numerics.time_step_s) refuse("--time-step", "--cfl with bands");
+  if (scene.snapshot_every_s) refuse("--snapshots", "none with bands");
+  if (scene.numerics.monotone) refuse("--monotone", "it without bands");
+  for (const auto& source : scene.survey.sources)
+    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+      refuse("a plane wave", "point sources with bands");
+  if (const auto* const found = first_on_faces(scene.model.fracture_sets); scene.with_slip && found)
+    refuse("fractures '" + found->name + "' on faces", "fractures in cells with bands, or --without slip");
+}
+
+}  // namespace
+
+std::vector<Band> parse_bands(const std::string& text) {
+  if (text.empty() || text == "none") return {};
+  std::vector<Band> bands;
+  for (const auto& part : split(text, ',')) {
+    const auto colon = part.find(':');
+    if (colon == std::string::npos) refuse("'" + part + "'", "DEPTH:STEP,... such as 0:0.5,30:2");
+    const auto number = [](const std::string& digits) {
+      return in_place("--bands", [&] { return parse_number(digits); });
+    };
+    bands.push_back({number(part.substr(0, colon)), number(part.substr(colon + 1))});
+    const auto& band = bands.back();
+    if (!(band.spacing_m > 0) || !std::isfinite(band.spacing_m))
+      refuse("cells of " + shown(band.spacing_m) + " m", "them above 0");
+    if (bands.size() == 1 ? band.from_m != 0 : !(band.from_m > bands[bands.size() - 2].from_m))
+      refuse("'" + text + "'", "depths that begin with 0 and deepen");
+  }
+  return bands;
+}
+
+std::string shown(const std::vector<Band>& bands) {
+  std::string text;
+  for (const auto& band : bands)
+    text += (text.empty() ? "" : ", from z=" + shown(band.from_m) + " m on ") + shown(band.spacing_m) + " m";
+  return text;
+}
+
+template <int D>
+std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
+  check_bands(scene);
+  auto all = in_cells_of_bands(scene);
+  const auto whole = of_whole(all);
+  const auto beside = rows_beside_band(scene.numerics.order);
+  const double step_s = time_step_of_bands(all), largest = largest_of_bands(scene.numerics.bands);
+  // Zones are as wide in all bands, in whole cells of the largest.
+  constexpr int usual = 20;
+  const int given = scene.numerics.zone_cells;
+  const double zone = given > 0 ? std::ceil(given * scene.model.grid().spacing_m / largest) : usual;
+  std::vector<Scene<D>> scenes;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const auto rows = rows_of_band(all, n, beside);
+    Scene<D> band = scene;
+    band.model = model_of_rows(all[n], rows);
+    band.subdomain = whole;
+    band.subdomain.rows = std::int64_t(rows.size());
+    band.subdomain.first = n > 0 ? beside : 0;
+    band.subdomain.last = band.subdomain.first + all[n].rows();
+    band.subdomain.exchanged = beside;
+    band.subdomain.side_speeds = side_speeds(band.model.medium, Subdomain{});
+    band.numerics.time_step_s = step_s;
+    band.numerics.zone_cells = int(zone) * int(whole_cells(largest, scene.numerics.bands[n].spacing_m));
+    band.numerics.tiling.plain = true;
+    band.numerics.bands.clear();
+    scenes.push_back(std::move(band));
+  }
+  return scenes;
+}
+
+template std::vector<Scene<2>> scenes_of_bands(const Scene<2>&);
+template std::vector<Scene<3>> scenes_of_bands(const Scene<3>&);
+
+}  // namespace slipwave

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// How many times wider cells of a band may be than those of the band beside it (theory.md (B1)).
+inline constexpr int widest_step_of_bands = 4;
+
+/// Rows of a neighbour beyond a face between bands that a band holds: as many as decide how it sweeps its own
+/// rows and the first beyond them.
+constexpr std::int64_t rows_beside_band(int order) { return std::int64_t(3) * nearness_of(order); }
+
+/// Bands as an option gives them, "0:0.6,30:2.4": where each begins, m, and the size of its cells, m; empty
+/// for "none" and for one band alone that begins at 0. Throws a usage Error.
+std::vector<Band> parse_bands(const std::string& text);
+
+/// "0.6 m, from z=30 m on 2.4 m": the cells of bands as messages show them.
+std::string shown(const std::vector<Band>& bands);
+
+/// One scene for each band of cells (Numerics::bands) of a checked scene of a whole model. Its model is the
+/// rows of the band and some of its neighbours beyond, in columns of its own; its subdomain is the rows of
+/// the band; its time step is that of all. Throws a usage Error where a face between bands is not on a face
+/// of level rows of both, where cells of one do not divide those of another, where a band has too few rows,
+/// and on what bands do not go with.
+template <int D>
+std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene);
+
+}  // namespace slipwave

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/banded_shot.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "scene/bands.hpp"
+#include "scene/empty_gather.hpp"
+#include "scene/surroundings.hpp"
+
+namespace slipwave::solver {
+
+template <int D, class Real>
+BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot)
+    : scene_(&scene), shot_(shot), scenes_(scenes_of_bands(scene)) {
+  const auto all = in_all_bands(scenes_, shot);
+  for (const auto& band : scenes_)
+    parts_.push_back(std::make_unique<ShotSimulation<D, Real>>(band, shot, SnapshotSink<D>(), nullptr, &all));
+  std::vector<std::array<SharedFaces<Real>*, 2>> shared;
+  for (auto& part : parts_) shared.push_back(part->sweeps().share_faces(part->domain()));
+  for (std::size_t n = 1; n < parts_.size(); ++n)
+    faces_.emplace_back(typename BandFace<D, Real>::Side{&parts_[n - 1]->state(), shared[n - 1][1]},
+                        typename BandFace<D, Real>::Side{&parts_[n]->state(), shared[n][0]},
+                        parts_[n]->domain().edges, int(parts_[n]->sweeps().reach()));
+  narrow_first_.resize(parts_.size());
+  std::iota(narrow_first_.begin(), narrow_first_.end(), std::size_t(0));
+  std::stable_sort(narrow_first_.begin(), narrow_first_.end(), [this](std::size_t one, std::size_t other) {
+    return scenes_[one].model.grid().spacing_m < scenes_[other].model.grid().spacing_m;
+  });
+}
+
+template <int D, class Real>
+void BandedShot<D, Real>::run_to(std::int64_t last, const Progress& progress,
+                                 const std::function<bool()>& pause) {
+  if (done() == 0 && last > 0)
+    for (auto& part : parts_) part->plain().start();
+  for (auto n = done(); n < last; ++n) {
+    if (pause && pause()) return;
+    make_step({n, parts_.front()->time_step().dt_s()});
+    for (auto& part : parts_) part->made(n + 1);
+    if (progress) progress(n + 1, steps());
+    if ((n + 1) % StabilityCheck<D, Real>::every == 0 || n + 1 == steps()) check_stability();
+  }
+}
+
+template <int D, class Real>
+void BandedShot<D, Real>::check_stability() const {
+  for (std::size_t n = 0; n < parts_.size(); ++n) try {
+      parts_[n]->check_stability();
+    } catch (const DivergedFields<D>& seen) {
+      throw DivergedFields<D>(
+          seen.what() + std::string("; ") +
+              surroundings(scenes_[n], shot_, parts_[n]->domain().from_model(seen.first().at)),
+          seen.first());
+    }
+}
+
+template <int D, class Real>
+void BandedShot<D, Real>::make_step(const StepTime& time) {
+  const auto& sweeps = parts_.front()->time_step().sweeps();
+  for (auto& part : parts_) part->plain().begin(time);
+  for (std::size_t k = 1; k + 1 < sweeps.size(); ++k)
+    if (sweeps[k].axis == D - 1)
+      sweep_across(k, time);
+    else
+      for (auto& part : parts_) part->plain().sweep(k, time);
+  for (auto& part : parts_) part->plain().end(time);
+}
+
+template <int D, class Real>
+void BandedShot<D, Real>::sweep_across(std::size_t number, const StepTime& time) {
+  for (auto& face : faces_) face.fill_rows();
+  for (const auto band : narrow_first_) {
+    parts_[band]->plain().sweep(number, time);
+    for (auto& face : faces_)
+      if (face.is_narrow(parts_[band]->state())) face.give_states();
+  }
+}
+
+template <int D, class Real>
+void BandedShot<D, Real>::serialize(Archive& archive) {
+  for (auto& part : parts_) part->serialize(archive);
+}
+
+/// Each band has recorded the receivers in its cells, the traces of others are zero.
+template <int D, class Real>
+Gather BandedShot<D, Real>::take_gather() {
+  auto gather = empty_gather(*scene_, shot_);
+  for (auto& trace : gather.traces) trace.samples.assign(std::size_t(gather.axis.count), 0);
+  for (auto& part : parts_) {
+    const auto of_band = part->take_gather();
+    for (std::size_t n = 0; n < gather.traces.size(); ++n) {
+      const auto& from = of_band.traces[n].samples;
+      for (std::size_t i = 0; i < from.size(); ++i) gather.traces[n].samples[i] += from[i];
+    }
+  }
+  return gather;
+}
+
+template <int D, class Real>
+ShotReport BandedShot<D, Real>::report() const {
+  ShotReport all;
+  for (const auto& part : parts_) {
+    const auto of_band = part->report();
+    if (of_band.slip) {
+      auto& sum = all.slip ? *all.slip : all.slip.emplace();
+      sum.cells += of_band.slip->cells, sum.slipped += of_band.slip->slipped;
+      sum.dissipated += of_band.slip->dissipated, sum.out_of_waves += of_band.slip->out_of_waves;
+    }
+    if (of_band.source_work) all.source_work = all.source_work.value_or(0) + *of_band.source_work;
+    all.energy_left += of_band.energy_left;
+  }
+  return all;
+}
+
+template <int D, class Real>
+std::int64_t BandedShot<D, Real>::memory_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& part : parts_) bytes += part->memory_bytes();
+  return bytes;
+}
+
+template <int D, class Real>
+std::int64_t BandedShot<D, Real>::record_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& part : parts_) bytes += part->record_bytes();
+  return bytes;
+}
+
+template <int D, class Real>
+std::int64_t BandedShot<D, Real>::building_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& part : parts_) bytes = std::max(bytes, part->building_bytes());
+  return bytes;
+}
+
+template class BandedShot<2, float>;
+template class BandedShot<2, double>;
+template class BandedShot<3, float>;
+template class BandedShot<3, double>;
+
+}  // namespace slipwave::solver

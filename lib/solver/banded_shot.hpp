@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "scene/scene.hpp"
+#include "solver/schedule/band_face.hpp"
+#include "solver/shot_simulation.hpp"
+
+namespace slipwave::solver {
+
+/// A shot in bands of cells (Numerics::bands): a simulation of each, which make every sweep together and
+/// exchange what they share (theory.md (B4)). It is used as a ShotSimulation is.
+template <int D, class Real>
+class BandedShot {
+ public:
+  /// Throws as scenes_of_bands(). Keeps a reference.
+  BandedShot(const Scene<D>& scene, std::size_t shot);
+
+  void run_to(std::int64_t last, const Progress& progress = {}, const std::function<bool()>& pause = {});
+  std::int64_t steps() const { return parts_.front()->steps(); }
+  std::int64_t done() const { return parts_.front()->done(); }
+  void serialize(Archive& archive);
+  Gather take_gather();
+  ShotReport report() const;
+  std::int64_t memory_bytes() const;
+  std::int64_t record_bytes() const;
+  std::int64_t building_bytes() const;
+  /// The scenes of the bands and what simulates them, top to bottom.
+  const std::vector<Scene<D>>& scenes() const { return scenes_; }
+  const ShotSimulation<D, Real>& part(std::size_t band) const { return *parts_[band]; }
+
+ private:
+  void make_step(const StepTime& time);
+  void check_stability() const;
+  void sweep_across(std::size_t number, const StepTime& time);
+
+  const Scene<D>* scene_;
+  std::size_t shot_;
+  std::vector<Scene<D>> scenes_;
+  std::vector<std::unique_ptr<ShotSimulation<D, Real>>> parts_;
+  std::vector<BandFace<D, Real>> faces_;   // below each band but the last
+  std::vector<std::size_t> narrow_first_;  // bands, in the order in which they are swept
+};
+
+}  // namespace slipwave::solver

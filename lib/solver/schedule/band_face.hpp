@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/sweep/band_columns.hpp"
+#include "solver/sweep/sweeps.hpp"
+
+namespace slipwave::solver {
+
+/// What two bands of cells exchange at the level face between them (theory.md (B4)): their grids have columns
+/// of two widths, and each holds rows of the other beyond the face, in columns of its own.
+template <int D, class Real>
+class BandFace {
+ public:
+  /// A grid beside the face, and its states there.
+  struct Side {
+    State<D, Real>* state;
+    SharedFaces<Real>* shared;
+  };
+  /// `reach` of the reconstruction. Keeps references.
+  BandFace(const Side& above, const Side& below, const EdgeLaws<D>& edges, int reach);
+  /// Before a sweep along the last axis: fills the rows beyond the face that each grid reads.
+  void fill_rows();
+  /// Once the grid with the narrower columns is swept: gives its states of the face to the other.
+  void give_states();
+  bool is_narrow(const State<D, Real>& state) const { return narrow().state == &state; }
+
+ private:
+  static const Index<D>& shape(const Side& side) { return side.state->layout.shape(); }
+  const Side& narrow() const { return narrows_up_ ? above_ : below_; }
+  const Side& wide() const { return narrows_up_ ? below_ : above_; }
+  /// All lines of a row, one after the other, in columns of the other width, as parts of a field row.
+  void interpolate(bool narrows, int field_row, std::vector<Real>& values);
+  /// Row `row_from` of all fields of one grid as row `row_to` of the other.
+  void fill(const Side& from, const Side& to, std::int64_t row_from, std::int64_t row_to);
+
+  Side above_, below_;
+  bool narrows_up_;
+  int reach_;
+  EdgeLaws<D> edges_;
+  std::vector<BandColumns<Real>> columns_;  // by horizontal axis
+  std::vector<Real> lines_, values_;
+};
+
+}  // namespace slipwave::solver

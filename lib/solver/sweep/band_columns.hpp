@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/edges.hpp"
+#include "solver/sweep/state.hpp"
+
+namespace slipwave::solver {
+
+/// Values along an axis of columns of one width and of columns `ratio` times as wide (theory.md (B2), (B3)).
+/// What goes from wide columns to narrow ones keeps its sum of squares, times their width, and comes back as
+/// it was. Beyond the ends rows are their images, even or odd.
+template <class Real>
+class BandColumns {
+ public:
+  /// `wide`: how many wide columns there are.
+  BandColumns(int ratio, std::int64_t wide);
+  std::int64_t wide() const { return wide_; }
+  std::int64_t narrow() const { return wide_ * ratio_; }
+  /// The sign of the image beyond each end.
+  using Images = std::array<Real, 2>;
+  /// (B2): `from` and `to` hold one value each `stride` values; `lanes` such rows stand side by side.
+  void to_narrow(const Real* from, std::int64_t stride_from, Real* to, std::int64_t stride_to,
+                 std::int64_t lanes, const Images& images);
+  /// (B3), its transpose over the ratio.
+  void to_wide(const Real* from, std::int64_t stride_from, Real* to, std::int64_t stride_to,
+               std::int64_t lanes, const Images& images);
+  /// Taps of the narrow column n, 0 <= n < ratio, of each wide one: weights of the wide columns from -reach()
+  /// to reach() beside it.
+  const std::vector<Real>& taps(int n) const { return taps_[std::size_t(n)]; }
+  std::int64_t reach() const { return reach_; }
+
+ private:
+  /// Column -reach to wide + reach of row n of those that a row of `of` is taken apart into.
+  Real* part(int n) { return parts_.data() + std::int64_t(n) * (wide_ + 2 * reach_) + reach_; }
+  void extend(int parts, const Images& images);
+
+  int ratio_;
+  std::int64_t wide_, reach_;
+  std::vector<std::vector<Real>> taps_;
+  std::vector<Real> parts_, sums_;
+};
+
+/// The sign of the image of a field row beyond an edge of a horizontal axis: velocities and tractions there
+/// by the law of the edge, what else there is even.
+template <int D>
+int image_sign(EdgeLaw law, int axis, int field_row);
+
+}  // namespace slipwave::solver
