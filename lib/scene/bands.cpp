@@ -62,17 +62,44 @@ std::int64_t row_at(const Grid<D>& grid, double depth_m, std::int64_t level_besi
          "it at an interface that rows follow, or at a multiple of the cells of both bands");
 }
 
+/// Cells of each band along the horizontal axes: whole ones of the widest. Where the model ends before, its
+/// last column continues, as it does in absorbing zones.
 template <int D>
-void check_sides(const Grid<D>& one, const Grid<D>& other) {
+Index<D> columns_of_widest(const Scene<D>& scene, double widest_m) {
+  const auto& grid = scene.model.grid();
+  Index<D> columns{};
   for (int axis = 0; axis < D - 1; ++axis) {
-    const double length = double(one.shape[axis]) * one.spacing_m,
-                 beside = double(other.shape[axis]) * other.spacing_m;
-    if (std::abs(length - beside) > rounding * one.spacing_m)
-      refuse("a model of " + shown(std::min(length, beside)) + " m along " +
-                 std::string(1, axis_names<D>()[std::size_t(axis)]) + " and cells of " +
-                 shown(std::max(one.spacing_m, other.spacing_m)) + " m",
-             "cells of each band that divide it");
+    const double length_m = double(grid.shape[axis]) * grid.spacing_m;
+    columns[axis] = whole_cells(length_m, widest_m);
+    if (columns[axis] > 0) continue;
+    columns[axis] = std::int64_t(std::ceil(length_m / widest_m));
+    if (scene.edges[axis][1] != EdgeLaw::absorbing)
+      refuse("a model of " + shown(length_m) + " m along " +
+                 std::string(1, axis_names<D>()[std::size_t(axis)]) + " and cells of " + shown(widest_m) +
+                 " m",
+             "cells that divide it, or an absorbing edge behind it");
   }
+  return columns;
+}
+
+/// Solid, fluid or void.
+template <int D>
+int kind_of(const Medium<D>& medium, std::size_t cell) {
+  return medium.is_solid(cell) ? 2 : medium.is_fluid(cell) ? 1 : 0;
+}
+
+/// Beside a face each row is all solid, all fluid or all void: columns that are taken together must carry the
+/// same waves.
+template <int D>
+void check_kinds(const Medium<D>& medium, std::int64_t first, std::int64_t last) {
+  const auto& grid = medium.grid();
+  const auto a_row = std::size_t(grid.size() / grid.shape[D - 1]);
+  for (auto row = std::size_t(first); row < std::size_t(last); ++row)
+    for (auto cell = row * a_row; cell < (row + 1) * a_row; ++cell)
+      if (kind_of(medium, cell) != kind_of(medium, row * a_row))
+        refuse("solid, fluid or void side by side at " + place_of(grid, std::int64_t(cell)) +
+                   " beside the begin of a band",
+               "rows there of one of them each");
 }
 
 /// The model in the cells of each band.
@@ -86,9 +113,11 @@ std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene) {
     all.back().last = all.back().grid().shape[D - 1];
   }
   for (std::size_t n = 1; n < all.size(); ++n) {
-    check_sides(all[n - 1].grid(), all[n].grid());
     all[n].first = row_at(all[n].grid(), bands[n].from_m, beside);
     all[n - 1].last = row_at(all[n - 1].grid(), bands[n].from_m, beside);
+    for (const auto& [of, face] : {std::pair(&all[n - 1], all[n - 1].last), std::pair(&all[n], all[n].first)})
+      check_kinds(of->scene.model.medium, std::max<std::int64_t>(0, face - beside),
+                  std::min(of->grid().shape[D - 1], face + beside));
   }
   for (std::size_t n = 0; n < all.size(); ++n)
     if (all[n].rows() < beside)
@@ -96,6 +125,12 @@ std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene) {
           "a band of " + std::to_string(all[n].rows()) + " rows from z=" + shown(bands[n].from_m) + " m on",
           "at least " + std::to_string(beside) + " at order " + std::to_string(scene.numerics.order));
   return all;
+}
+
+/// A place of a grid along an axis, or the last there is.
+template <int D>
+std::int64_t or_last(const Grid<D>& grid, int axis, std::int64_t at) {
+  return std::min(at, grid.shape[axis] - 1);
 }
 
 /// A row of a band's model: that of one of the scenes in cells.
@@ -129,11 +164,18 @@ std::shared_ptr<const RowDepths<D>> depths_of(const Grid<D>& grid, const std::ve
   std::vector<double> corners_m;
   corners_m.reserve(a_row * (rows.size() + 1));
   const auto add = [&](const Grid<D>& from, std::int64_t row) {
-    if (from.rows && from.rows->row(row).size() == a_row) {
-      const auto of_row = from.rows->row(row);
-      corners_m.insert(corners_m.end(), of_row.begin(), of_row.end());
-    } else {
-      corners_m.insert(corners_m.end(), a_row, depth_of_face(from, row));
+    // Rows that dip are those of the band itself, with columns as wide as these.
+    if (!from.rows || from.rows->row_is_level(row))
+      return void(corners_m.insert(corners_m.end(), a_row, depth_of_face(from, row)));
+    Index<D> at{};
+    at[D - 1] = row;
+    for (std::size_t n = 0; n < a_row; ++n) {
+      auto place = std::int64_t(n);
+      for (int axis = 0; axis < D - 1; ++axis) {
+        at[axis] = std::min(place % (cells[axis] + 1), from.shape[axis]);
+        place /= cells[axis] + 1;
+      }
+      corners_m.push_back(from.rows->corner(at));
     }
   };
   for (const auto& of : rows) add(of.from->grid(), of.row);
@@ -146,7 +188,9 @@ template <int D>
 Index<D> cell_beside(const Grid<D>& grid, const Index<D>& at, const RowOf<D>& row) {
   Index<D> cell = at;
   for (int axis = 0; axis < D - 1; ++axis)
-    cell[axis] = std::int64_t((double(at[axis]) + 0.5) * grid.spacing_m / row.from->grid().spacing_m);
+    cell[axis] =
+        or_last(row.from->grid(), axis,
+                std::int64_t((double(at[axis]) + 0.5) * grid.spacing_m / row.from->grid().spacing_m));
   cell[D - 1] = row.row;
   return cell;
 }
@@ -177,9 +221,10 @@ class RowsOfFields {
 
 /// The model of these rows in the columns of one of the scenes. Nothing slips in rows of other bands.
 template <int D>
-Model<D> model_of_rows(const InCells<D>& own, const std::vector<RowOf<D>>& rows) {
+Model<D> model_of_rows(const InCells<D>& own, const std::vector<RowOf<D>>& rows, const Index<D>& columns) {
   const auto& whole = own.scene.model;
   Grid<D> grid = whole.grid();
+  for (int axis = 0; axis < D - 1; ++axis) grid.shape[axis] = columns[axis];
   grid.shape[D - 1] = std::int64_t(rows.size());
   grid.origin_m[D - 1] = depth_of_face(rows.front().from->grid(), rows.front().row);
   grid.rows = depths_of(grid, rows);
@@ -305,11 +350,15 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   constexpr int usual = 20;
   const int given = scene.numerics.zone_cells;
   const double zone = given > 0 ? std::ceil(given * scene.model.grid().spacing_m / largest) : usual;
+  const auto widest = columns_of_widest(scene, largest);
   std::vector<Scene<D>> scenes;
   for (std::size_t n = 0; n < all.size(); ++n) {
     const auto rows = rows_of_band(all, n, beside);
+    const auto times = whole_cells(largest, scene.numerics.bands[n].spacing_m);
+    auto columns = widest;
+    for (auto& count : columns) count *= times;
     Scene<D> band = scene;
-    band.model = model_of_rows(all[n], rows);
+    band.model = model_of_rows(all[n], rows, columns);
     band.subdomain = whole;
     band.subdomain.rows = std::int64_t(rows.size());
     band.subdomain.first = n > 0 ? beside : 0;
@@ -317,7 +366,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
     band.subdomain.exchanged = beside;
     band.subdomain.side_speeds = side_speeds(band.model.medium, Subdomain{});
     band.numerics.time_step_s = step_s;
-    band.numerics.zone_cells = int(zone) * int(whole_cells(largest, scene.numerics.bands[n].spacing_m));
+    band.numerics.zone_cells = int(zone) * int(times);
     band.numerics.tiling.plain = true;
     band.numerics.bands.clear();
     scenes.push_back(std::move(band));

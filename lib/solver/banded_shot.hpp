@@ -31,7 +31,7 @@ class BandedShot {
   std::int64_t building_bytes() const;
   /// The scenes of the bands and what simulates them, top to bottom.
   const std::vector<Scene<D>>& scenes() const { return scenes_; }
-  const ShotSimulation<D, Real>& part(std::size_t band) const { return *parts_[band]; }
+  ShotSimulation<D, Real>& part(std::size_t band) { return *parts_[band]; }
 
  private:
   void make_step(const StepTime& time);
