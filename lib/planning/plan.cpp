@@ -18,7 +18,9 @@
 #include "planning/computed_share.hpp"
 #include "planning/expected_slip.hpp"
 #include "planning/measured_error.hpp"
+#include "scene/bands.hpp"
 #include "scene/subdomains.hpp"
+#include "solver/banded_shot.hpp"
 #include "solver/shot_simulation.hpp"
 
 namespace slipwave {
@@ -44,18 +46,33 @@ SlowestWave least_resolved(const Medium<D>& medium) {
   return least;
 }
 
+/// The media that are computed, zones left out: of a scene in bands (scenes_of_bands()) those of each.
 template <int D>
-double cells_a_wavelength(const Scene<D>& scene, const SlowestWave& slowest, double hz) {
-  return slowest.speed / hz / longest_side_m(scene.model.grid(), slowest.cell);
+std::vector<Medium<D>> media_of_bands(const std::vector<Scene<D>>& bands) {
+  std::vector<Medium<D>> media;
+  for (const auto& band : bands)
+    media.push_back(rows_of(band.model.medium, band.subdomain.first, band.subdomain.last));
+  return media;
 }
 
+/// The slowest wave in the cells that resolve it least, how many of them a wavelength at the highest
+/// frequency of a scene has, and what it loses in that.
+struct LeastResolved {
+  SlowestWave slowest;
+  double cells = 0, loss = 0;
+};
 template <int D>
-double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) {
-  const double courant =
-      slowest.speed * time_step_s(scene) / longest_side_m(scene.model.grid(), slowest.cell);
+LeastResolved least_resolved_of(const Scene<D>& scene, const Medium<D>& medium, double step_s, double hz) {
+  LeastResolved least{least_resolved(medium)};
+  const double side_m = longest_side_m(medium.grid(), least.slowest.cell);
+  least.cells = least.slowest.speed / hz / side_m;
+  const double courant = least.slowest.speed * step_s / side_m;
   // Waves shorter than two cells are not on the grid at all.
-  if (cells <= 2) return 1;
-  return loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
+  least.loss =
+      least.cells <= 2
+          ? 1
+          : loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, least.cells);
+  return least;
 }
 
 /// Cells that a second's way of P anywhere and of S in solids crosses at least (0: none), along their longest
@@ -77,8 +94,8 @@ std::array<double, 2> cells_of_a_second(const Medium<D>& medium) {
 
 /// Processor time of the first step, which takes the memory of the fields, and of a later one: the median of
 /// several; one after another is timed as long as that takes hardly anything of `shot_steps` of them.
-template <int D, class Real>
-std::pair<double, double> seconds_of_steps(solver::ShotSimulation<D, Real>& step, double shot_steps) {
+template <class Simulation>
+std::pair<double, double> seconds_of_steps(Simulation& step, double shot_steps) {
   constexpr std::int64_t warm_up = 2, most = 15;
   constexpr double enough_s = 0.6, hardly = 0.01;
   std::vector<double> seconds;
@@ -133,45 +150,77 @@ double measuring_share(int dimension) {
   return std::pow(first, -dimension - 1) + runs_in_second * std::pow(second, -dimension - 1);
 }
 
-template <int D, class Real>
-Plan<D> plan_as(const Scene<D>& scene) {
-  // Steps are timed as they are when waves are everywhere.
-  Scene<D> everywhere = scene;
-  everywhere.numerics.tiling.everywhere = true;
+/// What a plan tells of cells and wavelengths.
+template <int D>
+void plan_cells(const Scene<D>& scene, const Medium<D>& medium, Plan<D>& plan) {
+  const auto fewer = [](double& least, double cells) { least = least > 0 ? std::min(least, cells) : cells; };
+  const auto [of_p, of_s] = cells_of_a_second(medium);
+  fewer(plan.cells_of_shortest_p, of_p / plan.highest_hz);
+  if (of_s > 0) {
+    if (!plan.cells_of_shortest_s) plan.cells_of_shortest_s = 0;
+    fewer(*plan.cells_of_shortest_s, of_s / plan.highest_hz);
+  }
+  const auto least = least_resolved_of(scene, medium, plan.time_step_s, plan.highest_hz);
+  if (plan.slowest.speed > 0 && least.loss <= plan.loss_per_wavelength) return;
+  plan.slowest = least.slowest;
+  plan.loss_per_wavelength = least.loss;
+}
+
+/// All that is weighed and timed of what simulates the first shot, which build() makes.
+template <int D, class Build>
+void plan_run(const Scene<D>& scene, Plan<D>& plan, Build&& build) {
   const double start = processor_time_s();
-  solver::ShotSimulation<D, Real> step(everywhere, 1, [](double, const FieldReader<D>&) {});
+  const auto step = build();
   const double build_s = processor_time_s() - start;
-  Plan<D> plan;
-  plan.computed = step.domain().grid;
-  plan.time_step_s = time_step_s(scene);
-  plan.courant = plan.time_step_s / stable_time_step_s(scene);
-  plan.steps = step.steps();
-  plan.entries = step.planned();
-  plan.interface_cells = step.sweeps().interface_stencil_cells();
-  plan.trace_bytes = trace_bytes(scene);
-  plan.memory_bytes = step.memory_bytes() + step.record_bytes();
-  plan.building_bytes = step.building_bytes();
-  plan.shared_bytes = shared_bytes(scene);
-  plan.highest_hz = highest_frequency_hz(scene.survey);
-  plan.slowest = least_resolved(scene.model.medium);
-  const auto [cells_of_p, cells_of_s] = cells_of_a_second(scene.model.medium);
-  plan.cells_of_shortest_p = cells_of_p / plan.highest_hz;
-  if (cells_of_s > 0) plan.cells_of_shortest_s = cells_of_s / plan.highest_hz;
-  plan.loss_per_wavelength =
-      loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
-  plan.duration_s = scene.recording.duration_s;
-  plan.threads = parallel_threads();
-  if (scene.survey.any_receiver()) plan.direct = DirectWaves<D>(scene).error(discretisation_of(scene));
-  plan.slip = expected_slip(scene);
-  plan.cell_dependence = cell_dependence(scene);
-  plan.computed_share = expected_share(scene, plan.computed);
+  plan.steps = step->steps();
+  plan.entries = step->planned();
+  plan.interface_cells = step->interface_stencil_cells();
+  plan.memory_bytes = step->memory_bytes() + step->record_bytes();
+  plan.building_bytes = step->building_bytes();
   const double shot_steps = plan.computed_share * double(plan.steps);
-  const auto [first_s, later_s] = seconds_of_steps(step, shot_steps);
+  const auto [first_s, later_s] = seconds_of_steps(*step, shot_steps);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + std::max(0., first_s - later_s) + shot_steps * later_s);
   plan.measuring_seconds = plan.seconds / double(scene.survey.sources.size()) *
                            double(representative_shots(scene.survey).size()) * measuring_share(D);
+}
+
+template <int D, class Real>
+Plan<D> plan_as(const Scene<D>& scene) {
+  Plan<D> plan;
+  plan.highest_hz = highest_frequency_hz(scene.survey);
+  plan.trace_bytes = trace_bytes(scene);
+  plan.shared_bytes = shared_bytes(scene);
+  plan.duration_s = scene.recording.duration_s;
+  plan.threads = parallel_threads();
+  plan.slip = expected_slip(scene);
+  plan.cell_dependence = cell_dependence(scene);
   plan.instruction_set = solver::instruction_set();
+  if (!scene.numerics.bands.empty()) {
+    const auto bands = scenes_of_bands(scene);
+    plan.time_step_s = time_step_s(bands.front());
+    plan.courant = scene.numerics.cfl;
+    for (const auto& medium : media_of_bands(bands)) {
+      plan.bands.push_back(medium.grid());
+      plan_cells(scene, medium, plan);
+    }
+    plan_run(scene, plan, [&] { return std::make_unique<solver::BandedShot<D, Real>>(scene, 1); });
+    return plan;
+  }
+  plan.time_step_s = time_step_s(scene);
+  plan.courant = plan.time_step_s / stable_time_step_s(scene);
+  plan_cells(scene, scene.model.medium, plan);
+  if (scene.survey.any_receiver()) plan.direct = DirectWaves<D>(scene).error(discretisation_of(scene));
+  // Steps are timed as they are when waves are everywhere.
+  Scene<D> everywhere = scene;
+  everywhere.numerics.tiling.everywhere = true;
+  plan_run(scene, plan, [&] {
+    auto step = std::make_unique<solver::ShotSimulation<D, Real>>(everywhere, 1,
+                                                                  [](double, const FieldReader<D>&) {});
+    plan.computed = step->domain().grid;
+    plan.computed_share = expected_share(scene, plan.computed);
+    return step;
+  });
   return plan;
 }
 
@@ -226,6 +275,14 @@ std::string cells_text(const Plan<D>& plan) {
          (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : "");
 }
 
+/// "1100 x 50 cells of 0.6 m", top to bottom.
+template <int D>
+std::vector<std::string> shown_bands(const Plan<D>& plan) {
+  std::vector<std::string> bands;
+  for (const auto& grid : plan.bands) bands.push_back(shown(grid));
+  return bands;
+}
+
 /// Of sentences on fracture sets the first, and that there are others.
 void report_first(const std::string& key, const std::vector<std::string>& sentences, Report& report) {
   if (sentences.empty()) return;
@@ -269,12 +326,15 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
   Report report;
   report.text("cells per shortest wavelength", cells_text(plan));
   const auto direct = direct_text(plan.direct.p, plan.direct.s);
-  report.text("direct waves", direct.empty() ? "none arrives before the traces end"
-                                             : direct + " by dispersion, as derived (E16)");
-  report.text(
-      "not in it",
-      "reflections, waves along interfaces, edges, fractures: --plan --measure measures all of it in about " +
-          shown(plan.measuring_seconds, 2) + " s");
+  for (const auto& band : shown_bands(plan)) report.text("band", band);
+  if (plan.bands.empty())
+    report.text("direct waves", direct.empty() ? "none arrives before the traces end"
+                                               : direct + " by dispersion, as derived (E16)");
+  if (plan.bands.empty())
+    report.text("not in it",
+                "reflections, waves along interfaces, edges, fractures: --plan --measure measures all of it "
+                "in about " +
+                    shown(plan.measuring_seconds, 2) + " s");
   const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
@@ -291,7 +351,8 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
 template <int D>
 Report report_of(const Plan<D>& plan) {
   Report report;
-  report.text("grid", shown(plan.computed) + ", absorbing zones included");
+  if (plan.bands.empty()) report.text("grid", shown(plan.computed) + ", absorbing zones included");
+  if (!plan.bands.empty()) report.texts("band", shown_bands(plan));
   report.count("steps", plan.steps);
   report.number("time step", plan.time_step_s, "s");
   report.number("Courant number", plan.courant, "");
@@ -327,18 +388,27 @@ Report report_of(const Plan<D>& plan) {
 
 template <int D>
 std::vector<std::string> warnings(const Scene<D>& scene) {
-  const auto slowest = least_resolved(scene.model.medium);
   const double highest = highest_frequency_hz(scene.survey);
-  const double cells = cells_a_wavelength(scene, slowest, highest);
-  if (cells >= fewest_cells) return {};
-  const double h = scene.model.grid().spacing_m;
-  const std::string wave = scene.model.medium.is_fluid(std::size_t(slowest.cell)) ? "P" : "S";
-  return {"only " + shown(cells, 2) + " cells per shortest " + wave + " wavelength (" +
-          shown(slowest.speed, 4) + " m/s at " + place_of(scene.model.grid(), slowest.cell) + ", " +
-          shown(highest, 3) + " Hz), at least " + shown(fewest_cells) + " needed: amplitude drops by " +
-          shown(100 * loss_of(scene, slowest, cells), 2) + " % per wavelength. Use cells of " +
-          shown(h * cells / fewest_cells, 2) + " m (" + shown(std::pow(fewest_cells / cells, D + 1), 2) +
-          " times the cost) or --error"};
+  std::vector<std::string> sentences;
+  const auto warn = [&](const Medium<D>& medium, double step_s) {
+    const auto [slowest, cells, loss] = least_resolved_of(scene, medium, step_s, highest);
+    if (cells >= fewest_cells || !sentences.empty()) return;
+    const std::string wave = medium.is_fluid(std::size_t(slowest.cell)) ? "P" : "S";
+    sentences.push_back("only " + shown(cells, 2) + " cells per shortest " + wave + " wavelength (" +
+                        shown(slowest.speed, 4) + " m/s at " + place_of(medium.grid(), slowest.cell) + ", " +
+                        shown(highest, 3) + " Hz), at least " + shown(fewest_cells) +
+                        " needed: amplitude drops by " + shown(100 * loss, 2) +
+                        " % per wavelength. Use cells of " +
+                        shown(medium.grid().spacing_m * cells / fewest_cells, 2) + " m (" +
+                        shown(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost) or --error");
+  };
+  if (scene.numerics.bands.empty()) {
+    warn(scene.model.medium, time_step_s(scene));
+    return sentences;
+  }
+  const auto bands = scenes_of_bands(scene);
+  for (const auto& medium : media_of_bands(bands)) warn(medium, time_step_s(bands.front()));
+  return sentences;
 }
 
 template Plan<2> plan(const Scene<2>&);

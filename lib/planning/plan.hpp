@@ -10,7 +10,8 @@ namespace slipwave {
 /// What shoot() would do, how well, and at what cost.
 template <int D>
 struct Plan {
-  Grid<D> computed;  // zones included
+  Grid<D> computed;            // zones included
+  std::vector<Grid<D>> bands;  // of a scene in bands those of each instead, without zones
   double time_step_s = 0;
   double courant = 0;  // vp_max dt/h
   std::int64_t steps = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -286,6 +287,23 @@ double largest_of_bands(const std::vector<Band>& bands) {
   return largest;
 }
 
+/// By row, the slowest wave of that row and all below, m/s.
+template <int D>
+std::vector<double> slowest_below(const Medium<D>& medium) {
+  if (anisotropic_cells(medium) > 0) return slowest_below(in_slowest_directions(medium));
+  const auto& grid = medium.grid();
+  const auto rows = std::size_t(grid.shape[D - 1]), a_row = std::size_t(grid.size()) / rows;
+  std::vector<double> slowest(rows);
+  double least = std::numeric_limits<double>::infinity();
+  for (auto row = rows; row-- > 0;) {
+    for (auto cell = row * a_row; cell < (row + 1) * a_row; ++cell)
+      if (!medium.is_void(cell))
+        least = std::min(least, double(medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell]));
+    slowest[row] = least;
+  }
+  return slowest;
+}
+
 template <int D>
 void check_bands(const Scene<D>& scene) {
   const auto& bands = scene.numerics.bands;
@@ -314,7 +332,7 @@ void check_bands(const Scene<D>& scene) {
 }  // namespace
 
 std::vector<Band> parse_bands(const std::string& text) {
-  if (text.empty() || text == "none") return {};
+  if (text.empty() || text == "none" || text == "auto") return {};
   std::vector<Band> bands;
   for (const auto& part : split(text, ',')) {
     const auto colon = part.find(':');
@@ -374,6 +392,64 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   return scenes;
 }
 
+template <int D>
+ChosenBands bands_for(const Scene<D>& scene) {
+  const auto& grid = scene.model.grid();
+  const auto slowest = slowest_below(scene.model.medium);
+  const auto beside = rows_beside_band(scene.numerics.order);
+  const auto cost = [](const std::vector<InCells<D>>& all) {
+    double cells = 0;
+    for (const auto& each : all) cells += double(each.grid().size() / each.grid().shape[D - 1] * each.rows());
+    return cells / time_step_of_bands(all);
+  };
+  Scene<D> banded = scene;
+  auto& bands = banded.numerics.bands;
+  bands = {{0, grid.spacing_m}};
+  std::map<double, Scene<D>> in_cells;
+  const auto fits = [&](const Band& band) {
+    const auto found = in_cells.find(band.spacing_m);
+    const auto& other =
+        (found != in_cells.end() ? found
+                                 : in_cells.emplace(band.spacing_m, in_cells_of(scene, band.spacing_m)).first)
+            ->second;
+    try {
+      const auto row = row_at(other.model.grid(), band.from_m, beside);
+      check_kinds(other.model.medium, std::max<std::int64_t>(0, row - beside),
+                  std::min(other.model.grid().shape[D - 1], row + beside));
+      return row + beside <= other.model.grid().shape[D - 1];
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  std::int64_t last = 0;  // row of the last face, in the model's cells
+  for (std::int64_t row = beside; row < grid.shape[D - 1]; ++row) {
+    const auto& above = bands.back();
+    const double times = grid.spacing_m / above.spacing_m;
+    if (double(row - last) * times < double(beside)) continue;
+    const double room = slowest[std::size_t(row)] / slowest.front() * times;
+    for (int ratio = std::min(widest_step_of_bands, int(room)); ratio >= 2; --ratio) {
+      if (grid.rows && !grid.rows->row_is_level(row)) break;
+      const Band band{depth_of_face(grid, row), above.spacing_m * ratio};
+      if (!fits({band.from_m, above.spacing_m}) || !fits(band)) continue;
+      bands.push_back(band);
+      last = row;
+      break;
+    }
+  }
+  if (bands.size() < 2) return {};
+  try {
+    check_bands(banded);
+    columns_of_widest(banded, bands.back().spacing_m);
+    const std::vector<InCells<D>> own{{scene, 0, grid.shape[D - 1]}};
+    const double share = cost(in_cells_of_bands(banded)) / cost(own);
+    if (share <= 0.5) return {bands, share};
+  } catch (const Error&) {  // the scene does not go with bands
+  }
+  return {};
+}
+
+template ChosenBands bands_for(const Scene<2>&);
+template ChosenBands bands_for(const Scene<3>&);
 template std::vector<Scene<2>> scenes_of_bands(const Scene<2>&);
 template std::vector<Scene<3>> scenes_of_bands(const Scene<3>&);
 

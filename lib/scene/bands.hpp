@@ -17,11 +17,21 @@ inline constexpr int widest_step_of_bands = 4;
 constexpr std::int64_t rows_beside_band(int order) { return std::int64_t(3) * nearness_of(order); }
 
 /// Bands as an option gives them, "0:0.6,30:2.4": where each begins, m, and the size of its cells, m; empty
-/// for "none" and for one band alone that begins at 0. Throws a usage Error.
+/// for "none" and "auto". Throws a usage Error.
 std::vector<Band> parse_bands(const std::string& text);
 
 /// "0.6 m, from z=30 m on 2.4 m": the cells of bands as messages show them.
 std::string shown(const std::vector<Band>& bands);
+
+/// The bands that a scene calls for, at the same cells a wavelength everywhere: wherever all waves below are
+/// twice as fast or more, and rows of both cells begin, cells become 2 to 4 times as large. None where less
+/// than half of the cells and steps would be saved.
+struct ChosenBands {
+  std::vector<Band> bands;
+  double share = 1;  // of cells times steps, over those of the model's own cells
+};
+template <int D>
+ChosenBands bands_for(const Scene<D>& scene);
 
 /// One scene for each band of cells (Numerics::bands) of a checked scene of a whole model. Its model is the
 /// rows of the band and some of its neighbours beyond, in columns of its own; its subdomain is the rows of

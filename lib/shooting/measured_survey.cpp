@@ -190,6 +190,10 @@ void check_measuring(const ShootingOptions& options) {
   const auto usage = [](const std::string& sentence) { throw Error(sentence, ErrorKind::usage); };
   if (options.error_of != "traces" && options.error_of != "response")
     usage("--of: found '" + options.error_of + "', expected traces or response");
+  if (options.scene.bands != "none" && measures(options))
+    usage(
+        "found --bands with --error, --measure or --error-gather, expected one of them: errors are measured "
+        "in cells of one size");
   if (options.wanted_error) check_wanted_error(*options.wanted_error);
   if (options.wanted_error && options.plan)
     usage(

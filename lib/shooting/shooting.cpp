@@ -11,6 +11,7 @@
 #include "model/model_netcdf.hpp"
 #include "model/model_zeros.hpp"
 #include "planning/plan.hpp"
+#include "scene/bands.hpp"
 #include "scene/magnitude.hpp"
 #include "scene/timing.hpp"
 #include "shooting/measured_survey.hpp"
@@ -84,6 +85,7 @@ void check_on_ranks(const ShootingOptions& options, int count) {
                   ErrorKind::usage);
   };
   refuse(!options.output.checkpoint.empty(), "--checkpoint", "use one");
+  refuse(options.scene.bands != "none", "--bands", "use one");
   refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
   refuse(measures(options), "--error, --measure or --error-gather",
          "use one process, then give what it chooses");
@@ -108,6 +110,9 @@ void print_plan(const Scene<D>& scene, const ShootingOptions& options, const Mes
 template <int D>
 std::string result_in_words(const Scene<D>& scene) {
   const auto shots = scene.survey.sources.size();
+  if (!scene.numerics.bands.empty())
+    return std::to_string(shots) + (shots == 1 ? " shot" : " shots") + ", cells of " +
+           shown(scene.numerics.bands);
   const DirectWaves<D> waves(scene);
   const auto cells = discretisation_of(scene);
   const auto error = waves.error(cells);
@@ -115,6 +120,17 @@ std::string result_in_words(const Scene<D>& scene) {
          (error.p || error.s
               ? "expected error " + shown(100 * waves.together(cells), 2) + " % in direct arrivals, "
               : "no direct wave arrives, ");
+}
+
+/// Says in one line what was chosen and what it saves.
+template <int D>
+void choose_bands(Scene<D>& scene, const Messages& messages) {
+  const auto chosen = bands_for(scene);
+  scene.numerics.bands = chosen.bands;
+  messages.say(chosen.bands.empty()
+                   ? "bands: none, all in cells of " + shown(scene.model.grid().spacing_m) + " m"
+                   : "bands: cells of " + shown(chosen.bands) + "; " + shown(100 * chosen.share, 2) +
+                         " % of the cells and steps of one size");
 }
 
 template <int D>
@@ -126,6 +142,7 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   release_zeros(scene.model);
   release_freed_memory();
   warn_of_projection(scene.survey, messages);
+  if (options.scene.bands == "auto") choose_bands(scene, messages);
   if (!options.wanted_error)
     for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   if (options.plan) return print_plan(scene, options, messages);

@@ -114,17 +114,41 @@ ShotReport BandedShot<D, Real>::report() const {
 }
 
 template <int D, class Real>
+std::vector<PlannedEntry> BandedShot<D, Real>::planned() const {
+  std::vector<PlannedEntry> entries;
+  double cells = 0;
+  for (const auto& part : parts_) cells += double(part->domain().grid.size());
+  for (const auto& part : parts_)
+    for (const auto& [name, share] : part->planned()) {
+      const auto same =
+          std::find_if(entries.begin(), entries.end(),
+                       [&name = name](const PlannedEntry& entry) { return entry.name == name; });
+      auto& entry = same != entries.end() ? *same : entries.emplace_back(PlannedEntry{name, 0});
+      entry.share += share * double(part->domain().grid.size()) / cells;
+    }
+  return entries;
+}
+
+template <int D, class Real>
+template <class Of>
+std::int64_t BandedShot<D, Real>::sum_of_parts(Of&& of) const {
+  return std::accumulate(parts_.begin(), parts_.end(), std::int64_t(0),
+                         [&](std::int64_t sum, const auto& part) { return sum + of(*part); });
+}
+
+template <int D, class Real>
+std::int64_t BandedShot<D, Real>::interface_stencil_cells() const {
+  return sum_of_parts([](const auto& part) { return part.interface_stencil_cells(); });
+}
+
+template <int D, class Real>
 std::int64_t BandedShot<D, Real>::memory_bytes() const {
-  std::int64_t bytes = 0;
-  for (const auto& part : parts_) bytes += part->memory_bytes();
-  return bytes;
+  return sum_of_parts([](const auto& part) { return part.memory_bytes(); });
 }
 
 template <int D, class Real>
 std::int64_t BandedShot<D, Real>::record_bytes() const {
-  std::int64_t bytes = 0;
-  for (const auto& part : parts_) bytes += part->record_bytes();
-  return bytes;
+  return sum_of_parts([](const auto& part) { return part.record_bytes(); });
 }
 
 template <int D, class Real>

@@ -26,6 +26,9 @@ class BandedShot {
   void serialize(Archive& archive);
   Gather take_gather();
   ShotReport report() const;
+  /// Of all bands together.
+  std::vector<PlannedEntry> planned() const;
+  std::int64_t interface_stencil_cells() const;
   std::int64_t memory_bytes() const;
   std::int64_t record_bytes() const;
   std::int64_t building_bytes() const;
@@ -34,6 +37,8 @@ class BandedShot {
   ShotSimulation<D, Real>& part(std::size_t band) { return *parts_[band]; }
 
  private:
+  template <class Of>
+  std::int64_t sum_of_parts(Of&& of) const;
   void make_step(const StepTime& time);
   void check_stability() const;
   void sweep_across(std::size_t number, const StepTime& time);

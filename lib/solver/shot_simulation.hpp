@@ -66,6 +66,7 @@ class ShotSimulation {
   std::int64_t memory_bytes() const;
   std::int64_t record_bytes() const { return recorder_.memory_bytes() + snapshots_.memory_bytes(); }
   std::int64_t building_bytes() const;
+  std::int64_t interface_stencil_cells() const { return sweeps_.interface_stencil_cells(); }
   /// Share of all cells in all steps so far that had to be computed.
   double computed_share() const;
 
