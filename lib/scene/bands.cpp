@@ -46,16 +46,21 @@ double depth_of_face(const Grid<D>& grid, std::int64_t row) {
   return grid.rows ? grid.rows->row(row)[0] : grid.origin_m[D - 1] + double(row) * grid.spacing_m;
 }
 
-/// The row of a grid that begins at a depth, between level rows.
+/// Rows beside a face, counted from it: those above are negative.
+struct RowsBeside {
+  std::int64_t first, last;
+};
+
+/// The row of a grid that begins at a depth; `beside` rows above or below it must be level.
 template <int D>
-std::int64_t row_at(const Grid<D>& grid, double depth_m, std::int64_t level_beside) {
+std::int64_t row_at(const Grid<D>& grid, double depth_m, const RowsBeside& beside) {
   const std::int64_t rows = grid.shape[D - 1];
   for (std::int64_t row = 1; row < rows; ++row) {
     if (std::abs(depth_of_face(grid, row) - depth_m) > rounding * grid.spacing_m) continue;
-    for (auto near = row - level_beside; grid.rows && near <= row + level_beside; ++near)
+    for (auto near = row + beside.first; grid.rows && near <= row + beside.last; ++near)
       if (!grid.rows->row_is_level(std::clamp<std::int64_t>(near, 0, rows)))
         refuse("a band from z=" + shown(depth_m) + " m on, where rows near it follow a horizon that dips",
-               "it where " + std::to_string(level_beside) + " rows above and below are level");
+               "it where " + std::to_string(beside.last - beside.first) + " rows on both sides are level");
     return row;
   }
   refuse("a band from z=" + shown(depth_m) + " m on, where no row of cells of " + shown(grid.spacing_m) +
@@ -89,18 +94,53 @@ int kind_of(const Medium<D>& medium, std::size_t cell) {
   return medium.is_solid(cell) ? 2 : medium.is_fluid(cell) ? 1 : 0;
 }
 
-/// Beside a face each row is all solid, all fluid or all void: columns that are taken together must carry the
-/// same waves.
+/// Whether sweeps take the face between two cells for a strong interface.
 template <int D>
-void check_kinds(const Medium<D>& medium, std::int64_t first, std::int64_t last) {
+bool strong_interface(const Medium<D>& medium, std::size_t one, std::size_t other) {
+  const auto differ = [](double z, double beyond) {
+    return z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z;
+  };
+  return differ(wave_impedance(medium, one, D - 1, wave_p), wave_impedance(medium, other, D - 1, wave_p)) ||
+         differ(wave_impedance(medium, one, D - 1, wave_s), wave_impedance(medium, other, D - 1, wave_s));
+}
+
+/// What rows `beside` a face between bands must be, counted from it: each is all solid, all fluid or all
+/// void, since columns that are taken together must carry the same waves; and no strong interface lies
+/// between them but on the face itself: order 7 a few rows below one fed waves with energy (theory/bands.md).
+template <int D>
+void check_rows_beside(const Medium<D>& medium, std::int64_t face, const RowsBeside& beside) {
   const auto& grid = medium.grid();
   const auto a_row = std::size_t(grid.size() / grid.shape[D - 1]);
-  for (auto row = std::size_t(first); row < std::size_t(last); ++row)
-    for (auto cell = row * a_row; cell < (row + 1) * a_row; ++cell)
+  const auto first = std::size_t(std::max<std::int64_t>(0, face + beside.first)),
+             last = std::size_t(std::min(grid.shape[D - 1], face + beside.last));
+  for (auto row = first; row < last; ++row)
+    for (auto cell = row * a_row; cell < (row + 1) * a_row; ++cell) {
       if (kind_of(medium, cell) != kind_of(medium, row * a_row))
         refuse("solid, fluid or void side by side at " + place_of(grid, std::int64_t(cell)) +
                    " beside the begin of a band",
                "rows there of one of them each");
+      if (row > first && strong_interface(medium, cell - a_row, cell))
+        refuse("an interface at " + place_of(grid, std::int64_t(cell)) + " beside the begin of a band",
+               "it on that, or " + std::to_string(beside.last - beside.first) + " rows away");
+    }
+}
+
+/// How many columns of a face between bands have a strong interface on it, as a share.
+template <int D>
+double share_of_interface(const Medium<D>& medium, std::int64_t face) {
+  const auto a_row = medium.grid().size() / medium.grid().shape[D - 1];
+  std::int64_t strong = 0;
+  for (auto cell = face * a_row; cell < (face + 1) * a_row; ++cell)
+    strong += strong_interface(medium, std::size_t(cell - a_row), std::size_t(cell));
+  return double(strong) / double(a_row);
+}
+
+/// The row at which a band begins or ends in the cells of a scene. Throws as what it checks.
+template <int D>
+std::int64_t face_of_band(const Scene<D>& scene, double depth_m, const RowsBeside& beside) {
+  const auto face = row_at(scene.model.grid(), depth_m, beside);
+  check_rows_beside(scene.model.medium, face, beside);
+  return face;
 }
 
 /// The model in the cells of each band.
@@ -114,11 +154,16 @@ std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene) {
     all.back().last = all.back().grid().shape[D - 1];
   }
   for (std::size_t n = 1; n < all.size(); ++n) {
-    all[n].first = row_at(all[n].grid(), bands[n].from_m, beside);
-    all[n - 1].last = row_at(all[n - 1].grid(), bands[n].from_m, beside);
-    for (const auto& [of, face] : {std::pair(&all[n - 1], all[n - 1].last), std::pair(&all[n], all[n].first)})
-      check_kinds(of->scene.model.medium, std::max<std::int64_t>(0, face - beside),
-                  std::min(of->grid().shape[D - 1], face + beside));
+    all[n - 1].last = face_of_band(all[n - 1].scene, bands[n].from_m, {-beside, 0});
+    all[n].first = face_of_band(all[n].scene, bands[n].from_m, {0, beside});
+  }
+  for (std::size_t n = 1; n < all.size(); ++n) {
+    const double one = bands[n - 1].spacing_m, other = bands[n].spacing_m;
+    if (std::max(one, other) > (widest_step_in_rock + rounding) * std::min(one, other) &&
+        share_of_interface(all[n].scene.model.medium, all[n].first) < 1)
+      refuse("cells of " + shown(one) + " and " + shown(other) +
+                 " m beside each other at z=" + shown(bands[n].from_m) + " m, where no strong interface lies",
+             "one of them " + std::to_string(widest_step_in_rock) + " times the other there");
   }
   for (std::size_t n = 0; n < all.size(); ++n)
     if (all[n].rows() < beside)
@@ -134,24 +179,56 @@ std::int64_t or_last(const Grid<D>& grid, int axis, std::int64_t at) {
   return std::min(at, grid.shape[axis] - 1);
 }
 
-/// A row of a band's model: that of one of the scenes in cells.
+/// A row of a band's model: that of one of the scenes in cells, and from which depth on it lies, m.
 template <int D>
 struct RowOf {
   const InCells<D>* from;
   std::int64_t row;
+  double top_m;
 };
 
-/// The rows that a band holds: its own and, beyond, some of its neighbours.
+/// Height of a row between level faces, m.
+template <int D>
+double height_of_row(const Grid<D>& grid, std::int64_t row) {
+  return depth_of_face(grid, row + 1) - depth_of_face(grid, row);
+}
+
+/// Whether a face between bands lies in one rock, and rows of one are whole ones of the other: rows of both
+/// bands then continue across it as high as they are.
+template <int D>
+bool in_one_rock(const InCells<D>& above, const InCells<D>& below) {
+  if (share_of_interface(above.scene.model.medium, above.last) > 0) return false;
+  const double one = height_of_row(above.grid(), above.last - 1),
+               other = height_of_row(below.grid(), below.first), least = std::min(one, other);
+  const double cells = above.grid().spacing_m / below.grid().spacing_m;
+  return std::abs(one / cells - other) < rounding * least;
+}
+
+/// The rows that a band holds: its own and, beyond, those of its neighbours or as many as high as its own.
 template <int D>
 std::vector<RowOf<D>> rows_of_band(const std::vector<InCells<D>>& all, std::size_t band,
                                    std::int64_t beside) {
   std::vector<RowOf<D>> rows;
+  const auto& own = all[band];
   const auto add = [&](const InCells<D>& from, std::int64_t first, std::int64_t last) {
-    for (auto row = first; row < last; ++row) rows.push_back({&from, row});
+    for (auto row = first; row < last; ++row) rows.push_back({&from, row, depth_of_face(from.grid(), row)});
   };
-  if (band > 0) add(all[band - 1], all[band - 1].last - beside, all[band - 1].last);
-  add(all[band], all[band].first, all[band].last);
-  if (band + 1 < all.size()) add(all[band + 1], all[band + 1].first, all[band + 1].first + beside);
+  const auto add_beyond = [&](const InCells<D>& from, bool above) {
+    if (above ? !in_one_rock(from, own) : !in_one_rock(own, from))
+      return add(from, above ? from.last - beside : from.first, above ? from.last : from.first + beside);
+    const double face_m = depth_of_face(own.grid(), above ? own.first : own.last),
+                 own_m = height_of_row(own.grid(), above ? own.first : own.last - 1),
+                 from_m = height_of_row(from.grid(), above ? from.last - 1 : from.first);
+    for (auto n = above ? -beside : 0; n < (above ? 0 : beside); ++n) {
+      const auto away = std::int64_t(std::floor((double(n) + 0.5) * own_m / from_m));
+      const auto row = (above ? from.last : from.first) + away;
+      rows.push_back({&from, std::clamp<std::int64_t>(row, 0, from.grid().shape[D - 1] - 1),
+                      face_m + double(n) * own_m});
+    }
+  };
+  if (band > 0) add_beyond(all[band - 1], true);
+  add(own, own.first, own.last);
+  if (band + 1 < all.size()) add_beyond(all[band + 1], false);
   return rows;
 }
 
@@ -164,10 +241,10 @@ std::shared_ptr<const RowDepths<D>> depths_of(const Grid<D>& grid, const std::ve
   for (int axis = 0; axis < D - 1; ++axis) a_row *= std::size_t(cells[axis] + 1);
   std::vector<double> corners_m;
   corners_m.reserve(a_row * (rows.size() + 1));
-  const auto add = [&](const Grid<D>& from, std::int64_t row) {
+  const auto add = [&](const Grid<D>& from, std::int64_t row, double depth_m) {
     // Rows that dip are those of the band itself, with columns as wide as these.
     if (!from.rows || from.rows->row_is_level(row))
-      return void(corners_m.insert(corners_m.end(), a_row, depth_of_face(from, row)));
+      return void(corners_m.insert(corners_m.end(), a_row, depth_m));
     Index<D> at{};
     at[D - 1] = row;
     for (std::size_t n = 0; n < a_row; ++n) {
@@ -179,8 +256,12 @@ std::shared_ptr<const RowDepths<D>> depths_of(const Grid<D>& grid, const std::ve
       corners_m.push_back(from.rows->corner(at));
     }
   };
-  for (const auto& of : rows) add(of.from->grid(), of.row);
-  add(rows.back().from->grid(), rows.back().row + 1);
+  for (const auto& of : rows) add(of.from->grid(), of.row, of.top_m);
+  // The last one ends where the model does, or is as high as the one before.
+  const auto& [from, row, top_m] = rows.back();
+  const bool own = from->last == row + 1 && rows[rows.size() - 2].from == from;
+  add(from->grid(), row + 1,
+      own ? depth_of_face(from->grid(), row + 1) : 2 * top_m - rows[rows.size() - 2].top_m);
   return std::make_shared<const RowDepths<D>>(cells, std::move(corners_m));
 }
 
@@ -382,6 +463,8 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
     band.subdomain.first = n > 0 ? beside : 0;
     band.subdomain.last = band.subdomain.first + all[n].rows();
     band.subdomain.exchanged = beside;
+    band.subdomain.own_heights = {n > 0 && in_one_rock(all[n - 1], all[n]),
+                                  n + 1 < all.size() && in_one_rock(all[n], all[n + 1])};
     band.subdomain.side_speeds = side_speeds(band.model.medium, Subdomain{});
     band.numerics.time_step_s = step_s;
     band.numerics.zone_cells = int(zone) * int(times);
@@ -406,17 +489,12 @@ ChosenBands bands_for(const Scene<D>& scene) {
   auto& bands = banded.numerics.bands;
   bands = {{0, grid.spacing_m}};
   std::map<double, Scene<D>> in_cells;
-  const auto fits = [&](const Band& band) {
-    const auto found = in_cells.find(band.spacing_m);
-    const auto& other =
-        (found != in_cells.end() ? found
-                                 : in_cells.emplace(band.spacing_m, in_cells_of(scene, band.spacing_m)).first)
-            ->second;
+  const auto fits = [&](double from_m, double cell_m, const RowsBeside& rows) {
+    auto found = in_cells.find(cell_m);
+    if (found == in_cells.end()) found = in_cells.emplace(cell_m, in_cells_of(scene, cell_m)).first;
     try {
-      const auto row = row_at(other.model.grid(), band.from_m, beside);
-      check_kinds(other.model.medium, std::max<std::int64_t>(0, row - beside),
-                  std::min(other.model.grid().shape[D - 1], row + beside));
-      return row + beside <= other.model.grid().shape[D - 1];
+      face_of_band(found->second, from_m, rows);
+      return true;
     } catch (const Error&) {
       return false;
     }
@@ -430,7 +508,9 @@ ChosenBands bands_for(const Scene<D>& scene) {
     for (int ratio = std::min(widest_step_of_bands, int(room)); ratio >= 2; --ratio) {
       if (grid.rows && !grid.rows->row_is_level(row)) break;
       const Band band{depth_of_face(grid, row), above.spacing_m * ratio};
-      if (!fits({band.from_m, above.spacing_m}) || !fits(band)) continue;
+      if (!fits(band.from_m, above.spacing_m, {-beside, 0}) ||
+          !fits(band.from_m, band.spacing_m, {0, beside}))
+        continue;
       bands.push_back(band);
       last = row;
       break;

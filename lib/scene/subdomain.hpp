@@ -21,6 +21,8 @@ struct Subdomain {
   /// Whether neighbours are bands of other cells: nothing is read or added across the faces to them but by
   /// sweeps.
   bool other_cells = false;
+  /// Of such a face, before and behind its rows: whether rows beyond it are as high as its own.
+  std::array<bool, 2> own_heights{};
   bool slips = false;         // whether anything slips in any part
   bool shear = false;         // whether any part has shear stress: solid cells or bent rows
   bool anisotropic = false;   // whether any part has anisotropic cells

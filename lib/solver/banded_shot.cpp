@@ -21,7 +21,8 @@ BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot)
   for (std::size_t n = 1; n < parts_.size(); ++n)
     faces_.emplace_back(typename BandFace<D, Real>::Side{&parts_[n - 1]->state(), shared[n - 1][1]},
                         typename BandFace<D, Real>::Side{&parts_[n]->state(), shared[n][0]},
-                        parts_[n]->domain().edges, int(parts_[n]->sweeps().reach()));
+                        parts_[n]->domain().edges, int(parts_[n]->sweeps().reach()),
+                        scenes_[n].subdomain.own_heights[0]);
   narrow_first_.resize(parts_.size());
   std::iota(narrow_first_.begin(), narrow_first_.end(), std::size_t(0));
   std::stable_sort(narrow_first_.begin(), narrow_first_.end(), [this](std::size_t one, std::size_t other) {

@@ -17,13 +17,39 @@ int field_of_state(std::int64_t state) {
   return pair == 0 ? FieldRows<D>::normal_stress(z) : FieldRows<D>::shear_stress(motion, z);
 }
 
+/// Rows of the grid with wide columns that a part of one is found from, on each side of it.
+constexpr int rows_beside_part = 2;
+
+/// Weights of the means over 2 rows_beside_part + 1 rows in that of part `part` of `ratio` of the middle one:
+/// of the polynomial whose integrals over the rows are theirs.
+std::vector<double> weights_of_part(std::int64_t ratio, std::int64_t part) {
+  constexpr int rows = 2 * rows_beside_part + 1;
+  const double from = double(part) / double(ratio), to = double(part + 1) / double(ratio);
+  std::vector<double> weights(rows, 0.);
+  // Sums of rows at the faces -rows_beside_part to rows_beside_part + 1 and their Lagrange polynomials.
+  for (int face = 1; face <= rows; ++face) {
+    double integral = 0;
+    for (const auto& [at, sign] : {std::pair(to, 1.), std::pair(from, -1.)}) {
+      double value = 1;
+      for (int other = 0; other <= rows; ++other)
+        if (other != face) value *= (at + rows_beside_part - other) / double(face - other);
+      integral += sign * value;
+    }
+    // The sum at a face is of all rows before it.
+    for (int row = 0; row < face; ++row) weights[std::size_t(row)] += integral * double(ratio);
+  }
+  return weights;
+}
+
 }  // namespace
 
 template <int D, class Real>
-BandFace<D, Real>::BandFace(const Side& above, const Side& below, const EdgeLaws<D>& edges, int reach)
+BandFace<D, Real>::BandFace(const Side& above, const Side& below, const EdgeLaws<D>& edges, int reach,
+                            bool own_heights)
     : above_(above),
       below_(below),
       narrows_up_(shape(above)[0] > shape(below)[0]),
+      own_heights_(own_heights),
       reach_(reach),
       edges_(edges) {
   wide().shared->given = true;
@@ -59,26 +85,28 @@ void BandFace<D, Real>::interpolate(bool narrows, int field_row, std::vector<Rea
 }
 
 template <int D, class Real>
-void BandFace<D, Real>::fill(const Side& from, const Side& to, std::int64_t row_from, std::int64_t row_to) {
+void BandFace<D, Real>::fill(const Side& from, const std::vector<Row>& sum, const Side& to,
+                             std::int64_t row) {
   const bool narrows = from.state == wide().state;
-  const auto each_line = [](const Side& side, std::int64_t row, auto&& act) {
-    const auto& of = side.state->layout.shape();
+  const auto each_line = [](const Side& side, std::int64_t of, auto&& act) {
+    const auto& cells = shape(side);
     Index<D> at{};
-    at[D - 1] = row;
-    for (std::int64_t line = 0; line < (D == 3 ? of[1] : 1); ++line) {
+    at[D - 1] = of;
+    for (std::int64_t line = 0; line < (D == 3 ? cells[1] : 1); ++line) {
       if (D == 3) at[1] = line;
-      act(at, line * of[0], of[0]);
+      act(at, line * cells[0], cells[0]);
     }
   };
   for (int field = 0; field < from.state->layout.rows(); ++field) {
-    values_.resize(std::size_t(shape(from)[0] * (D == 3 ? shape(from)[1] : 1)));
-    each_line(from, row_from, [&](const Index<D>& at, std::int64_t first, std::int64_t nx) {
-      const Real* const row = from.state->field_row(at, field);
-      std::copy(row, row + nx, values_.begin() + first);
-    });
+    values_.assign(std::size_t(shape(from)[0] * (D == 3 ? shape(from)[1] : 1)), Real(0));
+    for (const auto& [of, weight] : sum)
+      each_line(from, of, [&, weight = weight](const Index<D>& at, std::int64_t first, std::int64_t nx) {
+        const Real* const values = from.state->field_row(at, field);
+        for (std::int64_t i = 0; i < nx; ++i) values_[std::size_t(first + i)] += weight * values[i];
+      });
     interpolate(narrows, field, values_);
-    each_line(to, row_to, [&](const Index<D>& at, std::int64_t first, std::int64_t nx) {
-      std::copy(values_.begin() + first, values_.begin() + first + nx, to.state->field_row(at, field));
+    each_line(to, row, [&](const Index<D>& at, std::int64_t first, std::int64_t nx) {
+      std::copy_n(values_.begin() + first, nx, to.state->field_row(at, field));
     });
   }
 }
@@ -86,9 +114,37 @@ void BandFace<D, Real>::fill(const Side& from, const Side& to, std::int64_t row_
 /// Rows above the face are those of the band above.
 template <int D, class Real>
 void BandFace<D, Real>::fill_rows() {
+  if (own_heights_) return fill_as_high();
   for (std::int64_t n = -1 - reach_; n <= reach_; ++n) {
     const auto &from = n < 0 ? above_ : below_, &to = n < 0 ? below_ : above_;
-    fill(from, to, from.shared->row + n, to.shared->row + n);
+    fill(from, {{from.shared->row + n, Real(1)}}, to, to.shared->row + n);
+  }
+}
+
+/// A row of the grid with wide columns is as high as some of the other: it is their mean, and they are means
+/// of a polynomial through sums over its rows (theory.md (B5)).
+template <int D, class Real>
+void BandFace<D, Real>::fill_as_high() {
+  const auto ratio = std::int64_t(shape(narrow())[0] / shape(wide())[0]);
+  // Row n of a grid, counted from the face into the other one.
+  const auto row_of = [&](const Side& side, std::int64_t n) {
+    const bool above = &side == &above_;
+    return above ? side.shared->row + n : side.shared->row - 1 - n;
+  };
+  std::vector<Row> sum;
+  for (std::int64_t n = 0; n <= std::max(reach_, rows_beside_part - 1); ++n) {
+    sum.clear();
+    for (auto of = -1 - n * ratio; of > -1 - (n + 1) * ratio; --of)
+      sum.emplace_back(row_of(narrow(), of), 1 / Real(ratio));
+    fill(narrow(), sum, wide(), row_of(wide(), n));
+  }
+  for (std::int64_t n = 0; n <= reach_; ++n) {
+    sum.clear();
+    const auto weights = weights_of_part(ratio, n % ratio);
+    for (std::size_t m = 0; m < weights.size(); ++m)
+      sum.emplace_back(row_of(wide(), -1 - n / ratio - (std::int64_t(m) - std::int64_t(weights.size()) / 2)),
+                       Real(weights[m]));
+    fill(wide(), sum, narrow(), row_of(narrow(), n));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solver/sweep/band_columns.hpp"
@@ -20,8 +21,9 @@ class BandFace {
     State<D, Real>* state;
     SharedFaces<Real>* shared;
   };
-  /// `reach` of the reconstruction. Keeps references.
-  BandFace(const Side& above, const Side& below, const EdgeLaws<D>& edges, int reach);
+  /// `reach` of the reconstruction; `own_heights`: rows of a grid beyond the face are as high as its own.
+  /// Keeps references.
+  BandFace(const Side& above, const Side& below, const EdgeLaws<D>& edges, int reach, bool own_heights);
   /// Before a sweep along the last axis: fills the rows beyond the face that each grid reads.
   void fill_rows();
   /// Once the grid with the narrower columns is swept: gives its states of the face to the other.
@@ -34,11 +36,14 @@ class BandFace {
   const Side& wide() const { return narrows_up_ ? below_ : above_; }
   /// All lines of a row, one after the other, in columns of the other width, as parts of a field row.
   void interpolate(bool narrows, int field_row, std::vector<Real>& values);
-  /// Row `row_from` of all fields of one grid as row `row_to` of the other.
-  void fill(const Side& from, const Side& to, std::int64_t row_from, std::int64_t row_to);
+  /// A row of a grid and its weight in a sum.
+  using Row = std::pair<std::int64_t, Real>;
+  /// A sum of rows of all fields of one grid as row `row` of the other.
+  void fill(const Side& from, const std::vector<Row>& sum, const Side& to, std::int64_t row);
+  void fill_as_high();
 
   Side above_, below_;
-  bool narrows_up_;
+  bool narrows_up_, own_heights_;
   int reach_;
   EdgeLaws<D> edges_;
   std::vector<BandColumns<Real>> columns_;  // by horizontal axis
