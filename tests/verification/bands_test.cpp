@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bands of cells of several sizes (docs/theory/bands.md) against exact traces, and against cells of one size.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "memory_archive.hpp"
+#include "model/fracture.hpp"
+#include "parallel/threads.hpp"
+#include "solver/banded_shot.hpp"
+#include "solver/simulation.hpp"
+#include "stack_scene.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+constexpr Rock soft{900, 300, 1800}, mud{1600, 400, 1500}, hard{3500, 2000, 2300}, sea{1500, 0, 1000};
+
+/// Of all traces together, relative.
+double difference(const Gather& found, const Gather& wanted) {
+  double squares = 0, all = 0;
+  for (std::size_t n = 0; n < wanted.traces.size(); ++n)
+    for (std::size_t k = 0; k < wanted.traces[n].samples.size(); ++k) {
+      squares += std::pow(found.traces[n].samples[k] - wanted.traces[n].samples[k], 2);
+      all += std::pow(wanted.traces[n].samples[k], 2);
+    }
+  return std::sqrt(squares / all);
+}
+
+std::vector<LayerStack::Receiver> line_at(double b, double last_a) {
+  std::vector<LayerStack::Receiver> line;
+  for (double a = 20; a <= last_a; a += 30) line.push_back({a, b});
+  return line;
+}
+
+/// 30 m of soft ground on rock, a force in it: ground roll of 20 cells a wavelength.
+StackScene soft_ground() {
+  StackScene stack{"soft ground", {soft, hard}, {0, 30}, true};
+  stack.source_b = 8.1, stack.force = {{0, 1}};
+  stack.receivers = line_at(0, 200);
+  stack.duration_s = 0.7, stack.spacing_m = 0.6, stack.order = 7, stack.margin_m = 60;
+  return stack;
+}
+
+/// Mud between water and rock, an explosion in the water.
+StackScene muddy_floor() {
+  StackScene stack{"mud below water", {sea, mud, hard}, {0, 36, 60}, true};
+  stack.source_b = 9.1;
+  stack.receivers = line_at(21, 200);
+  stack.duration_s = 0.5, stack.spacing_m = 1, stack.order = 7, stack.margin_m = 60;
+  return stack;
+}
+
+Gather in_bands(Scene<2> scene, std::vector<Band> bands) {
+  scene.numerics.bands = std::move(bands);
+  return shoot(scene, 1);
+}
+
+TEST(Bands, OfSoftGroundOnRockGiveItsExactTraces) {
+  const auto stack = soft_ground();
+  EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), 0.01);
+}
+
+TEST(Bands, OfMudBelowWaterGiveItsExactTraces) {
+  const auto stack = muddy_floor();
+  EXPECT_LT(difference(in_bands(stack.scene(), {{0, 1}, {60, 4}}), stack.exact().front()), 0.01);
+}
+
+/// With the same time step cells of one size and bands differ by what the larger cells do to waves.
+TEST(Bands, DifferLittleFromCellsOfOneSizeAtTheSameTimeStep) {
+  for (const int time_order : {2, 4}) {
+    auto stack = soft_ground();
+    stack.time_order = time_order, stack.duration_s = 0.3, stack.spacing_m = 1;
+    auto scene = stack.scene();
+    const auto whole = shoot(scene, 1);
+    scene.numerics.cfl /= 4;
+    EXPECT_LT(difference(in_bands(scene, {{0, 1}, {30, 4}}), whole), 0.004) << "time order " << time_order;
+  }
+}
+
+/// Attenuation on both sides of a face.
+TEST(Bands, AttenuateAsCellsOfOneSizeDo) {
+  auto stack = soft_ground();
+  stack.qualities = {{30, 15}, {100, 60}}, stack.duration_s = 0.3, stack.spacing_m = 1;
+  auto scene = stack.scene();
+  const auto whole = shoot(scene, 1);
+  scene.numerics.cfl /= 4;
+  EXPECT_LT(difference(in_bands(scene, {{0, 1}, {30, 4}}), whole), 0.004);
+}
+
+/// Waves that arrive at a face in one rock at up to 70 degrees, 12 cells in the shortest wavelength of S.
+TEST(Bands, ReflectNextToNothingInOneRock) {
+  StackScene stack{"one rock", {{3000, 1700, 2200}}};
+  stack.peak_hz = 20, stack.spacing_m = 2, stack.order = 7, stack.duration_s = 0.6, stack.margin_m = 200;
+  for (double a = 60; a <= 600; a += 60) stack.receivers.push_back({a, -40});
+  for (const auto& force :
+       {std::optional<Point<2>>(), std::optional<Point<2>>({0, 1}), std::optional<Point<2>>({1, 0})}) {
+    stack.force = force;
+    const auto scene = stack.scene();
+    const double face_m = 4 * std::round((stack.place({0, 0})[1] + 88) / 4);
+    const auto whole = shoot(scene, 1);
+    EXPECT_LT(difference(in_bands(scene, {{0, 2}, {face_m, 4}}), whole), 1e-3);
+  }
+}
+
+/// A box of rigid walls in 3-D, a force in its soft half.
+TEST(Bands, InSpaceAreAsCellsOfOneSize) {
+  Scene<3> scene;
+  const Grid<3> grid{{30, 30, 56}, 3, {0, 0, 0}};
+  auto& medium = scene.model.medium = Medium<3>(grid);
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto& rock = grid.index(n)[2] < 20 ? mud : hard;
+    medium.vp[std::size_t(n)] = float(rock.vp), medium.vs[std::size_t(n)] = float(rock.vs);
+    medium.rho[std::size_t(n)] = float(rock.rho);
+  }
+  for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {EdgeLaw::rigid, EdgeLaw::rigid};
+  scene.survey.sources = {{{45, 48, 33}, PointForce<3>{{1, 0.5, 0.7}}, parse_wavelet("ricker:15"), 1e6}};
+  scene.survey.receivers_m = {{30, 30, 27}, {60, 39, 45}, {63, 66, 69}, {21, 72, 120}};
+  scene.recording = {{Component::vx, Component::vy, Component::vz}, 0.2, 0.001};
+  scene.numerics.order = 7, scene.numerics.cfl = 0.8;
+  const auto whole = shoot(scene, 1);
+  for (const int ratio : {2, 3}) {
+    auto banded = scene;
+    banded.numerics.cfl /= ratio;
+    banded.numerics.bands = {{0, 3}, {60, 3. * ratio}};
+    EXPECT_LT(difference(shoot(banded, 1), whole), 0.01) << ratio;
+  }
+}
+
+TEST(Bands, GiveTheSameBitsWhateverTheThreadsAndInPieces) {
+  auto scene = soft_ground().scene();
+  scene.recording.duration_s = 0.05;
+  scene.numerics.bands = {{0, 0.6}, {30, 2.4}};
+  const auto by = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return shoot(scene, 1);
+  };
+  const auto one = by(1);
+  EXPECT_EQ(difference(by(3), one), 0);
+  std::vector<char> kept;
+  BandedShot<2, float> first(scene, 1);
+  first.run_to(first.steps() / 2);
+  ToMemory to(kept);
+  first.serialize(to);
+  BandedShot<2, float> second(scene, 1);
+  FromMemory from(kept);
+  second.serialize(from);
+  EXPECT_TRUE(from.all_used());
+  second.run_to(second.steps());
+  EXPECT_EQ(difference(second.take_gather(), one), 0);
+}
+
+}  // namespace
+}  // namespace slipwave::solver
