@@ -104,27 +104,6 @@ bool strong_interface(const Medium<D>& medium, std::size_t one, std::size_t othe
          differ(wave_impedance(medium, one, D - 1, wave_s), wave_impedance(medium, other, D - 1, wave_s));
 }
 
-/// What rows `beside` a face between bands must be, counted from it: each is all solid, all fluid or all
-/// void, since columns that are taken together must carry the same waves; and no strong interface lies
-/// between them but on the face itself: order 7 a few rows below one fed waves with energy (theory/bands.md).
-template <int D>
-void check_rows_beside(const Medium<D>& medium, std::int64_t face, const RowsBeside& beside) {
-  const auto& grid = medium.grid();
-  const auto a_row = std::size_t(grid.size() / grid.shape[D - 1]);
-  const auto first = std::size_t(std::max<std::int64_t>(0, face + beside.first)),
-             last = std::size_t(std::min(grid.shape[D - 1], face + beside.last));
-  for (auto row = first; row < last; ++row)
-    for (auto cell = row * a_row; cell < (row + 1) * a_row; ++cell) {
-      if (kind_of(medium, cell) != kind_of(medium, row * a_row))
-        refuse("solid, fluid or void side by side at " + place_of(grid, std::int64_t(cell)) +
-                   " beside the begin of a band",
-               "rows there of one of them each");
-      if (row > first && strong_interface(medium, cell - a_row, cell))
-        refuse("an interface at " + place_of(grid, std::int64_t(cell)) + " beside the begin of a band",
-               "it on that, or " + std::to_string(beside.last - beside.first) + " rows away");
-    }
-}
-
 /// How many columns of a face between bands have a strong interface on it, as a share.
 template <int D>
 double share_of_interface(const Medium<D>& medium, std::int64_t face) {
@@ -135,12 +114,43 @@ double share_of_interface(const Medium<D>& medium, std::int64_t face) {
   return double(strong) / double(a_row);
 }
 
+/// What rows `beside` a face between bands must be, counted from it: each is all solid, all fluid or all
+/// void, since columns that are taken together must carry the same waves; and no strong interface lies
+/// between them but on the face itself: order 7 a few rows below one fed waves with energy (theory/bands.md).
+template <int D>
+void check_rows_beside(const Medium<D>& medium, std::int64_t face, const RowsBeside& beside) {
+  const auto& grid = medium.grid();
+  const auto a_row = std::size_t(grid.size() / grid.shape[D - 1]);
+  const auto first = std::size_t(std::max<std::int64_t>(0, face + beside.first)),
+             last = std::size_t(std::min(grid.shape[D - 1], face + beside.last));
+  const bool on_interface = share_of_interface(medium, face) == 1;
+  for (auto row = first; row < last; ++row)
+    for (auto cell = row * a_row; cell < (row + 1) * a_row; ++cell) {
+      if (kind_of(medium, cell) != kind_of(medium, row * a_row))
+        refuse("solid, fluid or void side by side at " + place_of(grid, std::int64_t(cell)) +
+                   " beside the begin of a band",
+               "rows there of one of them each");
+      if (!on_interface && row > first && strong_interface(medium, cell - a_row, cell))
+        refuse("an interface at " + place_of(grid, std::int64_t(cell)) + " beside the begin of a band",
+               "it on that, or " + std::to_string(beside.last - beside.first) + " rows away");
+    }
+}
+
 /// The row at which a band begins or ends in the cells of a scene. Throws as what it checks.
 template <int D>
 std::int64_t face_of_band(const Scene<D>& scene, double depth_m, const RowsBeside& beside) {
   const auto face = row_at(scene.model.grid(), depth_m, beside);
   check_rows_beside(scene.model.medium, face, beside);
   return face;
+}
+
+/// Absorbing zones are as wide in all bands, in whole cells of the widest: as many of those as without bands,
+/// or the width that is given.
+template <int D>
+std::int64_t zone_of_widest(const Scene<D>& scene, double widest_m) {
+  const std::int64_t cells = zone_cells(scene, scene.survey.sources.front());
+  if (scene.numerics.zone_cells == 0) return cells;
+  return std::int64_t(std::ceil(double(cells) * scene.model.grid().spacing_m / widest_m * (1 - rounding)));
 }
 
 /// The model in the cells of each band.
@@ -445,10 +455,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   const auto whole = of_whole(all);
   const auto beside = rows_beside_band(scene.numerics.order);
   const double step_s = time_step_of_bands(all), largest = largest_of_bands(scene.numerics.bands);
-  // Zones are as wide in all bands, in whole cells of the largest.
-  constexpr int usual = 20;
-  const int given = scene.numerics.zone_cells;
-  const double zone = given > 0 ? std::ceil(given * scene.model.grid().spacing_m / largest) : usual;
+  const auto zone = zone_of_widest(scene, largest);
   const auto widest = columns_of_widest(scene, largest);
   std::vector<Scene<D>> scenes;
   for (std::size_t n = 0; n < all.size(); ++n) {
@@ -467,7 +474,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
                                   n + 1 < all.size() && in_one_rock(all[n], all[n + 1])};
     band.subdomain.side_speeds = side_speeds(band.model.medium, Subdomain{});
     band.numerics.time_step_s = step_s;
-    band.numerics.zone_cells = int(zone) * int(times);
+    band.numerics.zone_cells = int(zone * times);
     band.numerics.tiling.plain = true;
     band.numerics.bands.clear();
     scenes.push_back(std::move(band));
@@ -475,16 +482,31 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   return scenes;
 }
 
+/// Cells times steps of a second, absorbing zones included.
+template <int D>
+double cost_of_bands(const Scene<D>& scene, const std::vector<InCells<D>>& all) {
+  double widest = 0, cells = 0;
+  for (const auto& each : all) widest = std::max(widest, each.grid().spacing_m);
+  const double zone_m = double(zone_of_widest(scene, widest)) * widest;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const double spacing = all[n].grid().spacing_m;
+    const auto zones = [&](int axis, int side) {
+      return scene.edges[axis][side] == EdgeLaw::absorbing ? zone_m / spacing : 0;
+    };
+    double of_band =
+        double(all[n].rows()) + (n == 0 ? zones(D - 1, 0) : 0) + (n + 1 == all.size() ? zones(D - 1, 1) : 0);
+    for (int axis = 0; axis < D - 1; ++axis)
+      of_band *= double(all[n].grid().shape[axis]) + zones(axis, 0) + zones(axis, 1);
+    cells += of_band;
+  }
+  return cells / time_step_of_bands(all);
+}
+
 template <int D>
 ChosenBands bands_for(const Scene<D>& scene) {
   const auto& grid = scene.model.grid();
   const auto slowest = slowest_below(scene.model.medium);
   const auto beside = rows_beside_band(scene.numerics.order);
-  const auto cost = [](const std::vector<InCells<D>>& all) {
-    double cells = 0;
-    for (const auto& each : all) cells += double(each.grid().size() / each.grid().shape[D - 1] * each.rows());
-    return cells / time_step_of_bands(all);
-  };
   Scene<D> banded = scene;
   auto& bands = banded.numerics.bands;
   bands = {{0, grid.spacing_m}};
@@ -493,8 +515,7 @@ ChosenBands bands_for(const Scene<D>& scene) {
     auto found = in_cells.find(cell_m);
     if (found == in_cells.end()) found = in_cells.emplace(cell_m, in_cells_of(scene, cell_m)).first;
     try {
-      face_of_band(found->second, from_m, rows);
-      return true;
+      return face_of_band(found->second, from_m, rows) + rows.last <= found->second.model.grid().shape[D - 1];
     } catch (const Error&) {
       return false;
     }
@@ -516,16 +537,17 @@ ChosenBands bands_for(const Scene<D>& scene) {
       break;
     }
   }
-  if (bands.size() < 2) return {};
-  try {
-    check_bands(banded);
-    columns_of_widest(banded, bands.back().spacing_m);
-    const std::vector<InCells<D>> own{{scene, 0, grid.shape[D - 1]}};
-    const double share = cost(in_cells_of_bands(banded)) / cost(own);
-    if (share <= 0.5) return {bands, share};
-  } catch (const Error&) {  // the scene does not go with bands
-  }
-  return {};
+  // Wider cells make absorbing zones wider: the fewest cells and steps may be those of some of the bands.
+  ChosenBands best;
+  const double whole = cost_of_bands(scene, {{scene, 0, grid.shape[D - 1]}});
+  for (; bands.size() > 1; bands.pop_back()) try {
+      check_bands(banded);
+      columns_of_widest(banded, largest_of_bands(bands));
+      const double share = cost_of_bands(scene, in_cells_of_bands(banded)) / whole;
+      if (share <= 0.5 && share < best.share) best = {bands, share};
+    } catch (const Error&) {  // the scene does not go with these
+    }
+  return best;
 }
 
 template ChosenBands bands_for(const Scene<2>&);

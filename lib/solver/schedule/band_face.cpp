@@ -97,7 +97,9 @@ void BandFace<D, Real>::fill(const Side& from, const std::vector<Row>& sum, cons
       act(at, line * cells[0], cells[0]);
     }
   };
-  for (int field = 0; field < from.state->layout.rows(); ++field) {
+  // Sweeps along the last axis read no other fields of rows beyond their own.
+  for (std::int64_t state = 0; state < (from.state->fluid ? 2 : 2 * D); ++state) {
+    const int field = field_of_state<D>(state);
     values_.assign(std::size_t(shape(from)[0] * (D == 3 ? shape(from)[1] : 1)), Real(0));
     for (const auto& [of, weight] : sum)
       each_line(from, of, [&, weight = weight](const Index<D>& at, std::int64_t first, std::int64_t nx) {

@@ -78,56 +78,62 @@ BandColumns<Real>::BandColumns(int ratio, std::int64_t wide) : ratio_(ratio), wi
   for (const auto& taps : isometric_taps(ratio, std::numeric_limits<Real>::epsilon()))
     taps_.emplace_back(taps.begin(), taps.end());
   reach_ = std::int64_t(taps_.front().size()) / 2;
-  parts_.resize(std::size_t(ratio * (wide + 2 * reach_)));
-  sums_.resize(std::size_t(wide));
+}
+
+/// Room for rows of so many lanes, each column of all lanes after the other.
+template <class Real>
+void BandColumns<Real>::make_room(int parts, std::int64_t lanes) {
+  lanes_ = lanes;
+  parts_.resize(std::size_t(parts * (wide_ + 2 * reach_) * lanes));
+  sums_.resize(std::size_t(wide_ * lanes));
 }
 
 /// Fills the columns beyond both ends. The image of part n of a narrow row is its part ratio - 1 - n.
 template <class Real>
 void BandColumns<Real>::extend(int parts, const Images& images) {
   for (std::int64_t n = 1; n <= reach_; ++n)
-    for (int of = 0; of < parts; ++of) {
-      // Where there are fewer columns than are reached, these are images of images.
-      part(of)[-n] = images[0] * part(parts - 1 - of)[n - 1];
-      part(of)[wide_ - 1 + n] = images[1] * part(parts - 1 - of)[wide_ - n];
-    }
+    for (int of = 0; of < parts; ++of)
+      for (std::int64_t lane = 0; lane < lanes_; ++lane) {
+        // Where there are fewer columns than are reached, these are images of images.
+        const Real* const image = part(parts - 1 - of) + lane;
+        part(of)[-n * lanes_ + lane] = images[0] * image[(n - 1) * lanes_];
+        part(of)[(wide_ - 1 + n) * lanes_ + lane] = images[1] * image[(wide_ - n) * lanes_];
+      }
 }
 
 template <class Real>
 void BandColumns<Real>::to_narrow(const Real* from, std::int64_t stride_from, Real* to,
                                   std::int64_t stride_to, std::int64_t lanes, const Images& images) {
-  for (std::int64_t lane = 0; lane < lanes; ++lane) {
-    for (std::int64_t i = 0; i < wide_; ++i) part(0)[i] = from[i * stride_from + lane];
-    extend(1, images);
-    for (int n = 0; n < ratio_; ++n) {
-      std::fill(sums_.begin(), sums_.end(), Real(0));
-      for (std::int64_t o = -reach_; o <= reach_; ++o) {
-        const Real tap = taps_[std::size_t(n)][std::size_t(o + reach_)];
-        const Real* const beside = part(0) + o;
-        for (std::int64_t i = 0; i < wide_; ++i) sums_[std::size_t(i)] += tap * beside[i];
-      }
-      for (std::int64_t i = 0; i < wide_; ++i)
-        to[(i * ratio_ + n) * stride_to + lane] = sums_[std::size_t(i)];
-    }
+  make_room(1, lanes);
+  for (std::int64_t i = 0; i < wide_; ++i) std::copy_n(from + i * stride_from, lanes, part(0) + i * lanes);
+  extend(1, images);
+  for (int n = 0; n < ratio_; ++n) {
+    std::fill(sums_.begin(), sums_.end(), Real(0));
+    for (std::int64_t o = -reach_; o <= reach_; ++o)
+      add(taps_[std::size_t(n)][std::size_t(o + reach_)], part(0) + o * lanes);
+    for (std::int64_t i = 0; i < wide_; ++i)
+      std::copy_n(sums_.data() + i * lanes, lanes, to + (i * ratio_ + n) * stride_to);
   }
 }
 
 template <class Real>
 void BandColumns<Real>::to_wide(const Real* from, std::int64_t stride_from, Real* to, std::int64_t stride_to,
                                 std::int64_t lanes, const Images& images) {
-  for (std::int64_t lane = 0; lane < lanes; ++lane) {
-    for (int n = 0; n < ratio_; ++n)
-      for (std::int64_t i = 0; i < wide_; ++i) part(n)[i] = from[(i * ratio_ + n) * stride_from + lane];
-    extend(ratio_, images);
-    std::fill(sums_.begin(), sums_.end(), Real(0));
-    for (int n = 0; n < ratio_; ++n)
-      for (std::int64_t o = -reach_; o <= reach_; ++o) {
-        const Real tap = taps_[std::size_t(n)][std::size_t(o + reach_)] / Real(ratio_);
-        const Real* const beside = part(n) - o;
-        for (std::int64_t i = 0; i < wide_; ++i) sums_[std::size_t(i)] += tap * beside[i];
-      }
-    for (std::int64_t i = 0; i < wide_; ++i) to[i * stride_to + lane] = sums_[std::size_t(i)];
-  }
+  make_room(ratio_, lanes);
+  for (int n = 0; n < ratio_; ++n)
+    for (std::int64_t i = 0; i < wide_; ++i)
+      std::copy_n(from + (i * ratio_ + n) * stride_from, lanes, part(n) + i * lanes);
+  extend(ratio_, images);
+  std::fill(sums_.begin(), sums_.end(), Real(0));
+  for (int n = 0; n < ratio_; ++n)
+    for (std::int64_t o = -reach_; o <= reach_; ++o)
+      add(taps_[std::size_t(n)][std::size_t(o + reach_)] / Real(ratio_), part(n) - o * lanes);
+  for (std::int64_t i = 0; i < wide_; ++i) std::copy_n(sums_.data() + i * lanes, lanes, to + i * stride_to);
+}
+
+template <class Real>
+void BandColumns<Real>::add(Real tap, const Real* beside) {
+  for (std::size_t n = 0; n < sums_.size(); ++n) sums_[n] += tap * beside[n];
 }
 
 template <int D>

@@ -34,12 +34,15 @@ class BandColumns {
   std::int64_t reach() const { return reach_; }
 
  private:
-  /// Column -reach to wide + reach of row n of those that a row of `of` is taken apart into.
-  Real* part(int n) { return parts_.data() + std::int64_t(n) * (wide_ + 2 * reach_) + reach_; }
+  /// Columns from -reach to wide + reach, all lanes of each, of the parts that rows are taken apart into:
+  /// every ratio-th narrow column from n on, or wide columns. This is column 0.
+  Real* part(int n) { return parts_.data() + (std::int64_t(n) * (wide_ + 2 * reach_) + reach_) * lanes_; }
+  void make_room(int parts, std::int64_t lanes);
   void extend(int parts, const Images& images);
+  void add(Real tap, const Real* beside);
 
   int ratio_;
-  std::int64_t wide_, reach_;
+  std::int64_t wide_, reach_, lanes_ = 1;
   std::vector<std::vector<Real>> taps_;
   std::vector<Real> parts_, sums_;
 };
