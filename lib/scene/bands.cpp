@@ -244,7 +244,7 @@ std::vector<RowOf<D>> rows_of_band(const std::vector<InCells<D>>& all, std::size
 
 /// Depths of the corners of these rows in the columns of a grid.
 template <int D>
-std::shared_ptr<const RowDepths<D>> depths_of(const Grid<D>& grid, const std::vector<RowOf<D>>& rows) {
+RowDepths<D> depths_of(const Grid<D>& grid, const std::vector<RowOf<D>>& rows) {
   auto cells = grid.shape;
   cells[D - 1] = std::int64_t(rows.size());
   std::size_t a_row = 1;
@@ -272,7 +272,7 @@ std::shared_ptr<const RowDepths<D>> depths_of(const Grid<D>& grid, const std::ve
   const bool own = from->last == row + 1 && rows[rows.size() - 2].from == from;
   add(from->grid(), row + 1,
       own ? depth_of_face(from->grid(), row + 1) : 2 * top_m - rows[rows.size() - 2].top_m);
-  return std::make_shared<const RowDepths<D>>(cells, std::move(corners_m));
+  return {cells, std::move(corners_m)};
 }
 
 /// The cell of another band that stands for a cell of this one: that round its centre, or the one behind it.
@@ -319,7 +319,7 @@ Model<D> model_of_rows(const InCells<D>& own, const std::vector<RowOf<D>>& rows,
   for (int axis = 0; axis < D - 1; ++axis) grid.shape[axis] = columns[axis];
   grid.shape[D - 1] = std::int64_t(rows.size());
   grid.origin_m[D - 1] = depth_of_face(rows.front().from->grid(), rows.front().row);
-  grid.rows = depths_of(grid, rows);
+  grid.rows = std::make_shared<const RowDepths<D>>(depths_of(grid, rows));
   const RowsOfFields<D> rows_of(grid, rows);
   Model<D> model;
   model.title = whole.title, model.source = whole.source, model.history = whole.history;
@@ -438,6 +438,7 @@ std::vector<Band> parse_bands(const std::string& text) {
     if (bands.size() == 1 ? band.from_m != 0 : !(band.from_m > bands[bands.size() - 2].from_m))
       refuse("'" + text + "'", "depths that begin with 0 and deepen");
   }
+  if (bands.size() < 2) refuse("one band", "two or more, or none");
   return bands;
 }
 

@@ -27,9 +27,9 @@ std::vector<Band> parse_bands(const std::string& text);
 /// "0.6 m, from z=30 m on 2.4 m": the cells of bands as messages show them.
 std::string shown(const std::vector<Band>& bands);
 
-/// The bands that a scene calls for, at the same cells a wavelength everywhere: wherever all waves below are
-/// twice as fast or more, and rows of both cells begin, cells become 2 to 4 times as large. None where less
-/// than half of the cells and steps would be saved.
+/// The bands that a scene calls for, at the same cells per wavelength everywhere: wherever all waves below
+/// are twice as fast or more, and rows of both cells begin, cells become 2 to 4 times as large. None where
+/// less than half of the cells and steps would be saved.
 struct ChosenBands {
   std::vector<Band> bands;
   double share = 1;  // of cells times steps, over those of the model's own cells

@@ -63,6 +63,7 @@ TEST_P(BandColumnsOf, GoBackByTheTranspose) {
   EXPECT_NEAR(one, other, 1e-12);
 }
 
+// Proves (B1).
 TEST_P(BandColumnsOf, InterpolateWavesAtHighOrder) {
   // Of 12 wide columns a wavelength; halving them shows the order.
   const auto error = [](int ratio, double columns_a_wave) {

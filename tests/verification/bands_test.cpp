@@ -35,7 +35,7 @@ std::vector<LayerStack::Receiver> line_at(double b, double last_a) {
   return line;
 }
 
-/// 30 m of soft ground on rock, a force in it: ground roll of 20 cells a wavelength.
+/// 30 m of soft ground on rock, a force in it: ground roll of 20 cells per wavelength.
 StackScene soft_ground() {
   StackScene stack{"soft ground", {soft, hard}, {0, 30}, true};
   stack.source_b = 8.1, stack.force = {{0, 1}};
@@ -68,7 +68,8 @@ TEST(Bands, OfMudBelowWaterGiveItsExactTraces) {
   EXPECT_LT(difference(in_bands(stack.scene(), {{0, 1}, {60, 4}}), stack.exact().front()), 0.01);
 }
 
-/// With the same time step cells of one size and bands differ by what the larger cells do to waves.
+// Proves (B4): with the same time step cells of one size and bands differ by what the larger cells do to
+// waves.
 TEST(Bands, DifferLittleFromCellsOfOneSizeAtTheSameTimeStep) {
   for (const int time_order : {2, 4}) {
     auto stack = soft_ground();
@@ -90,7 +91,8 @@ TEST(Bands, AttenuateAsCellsOfOneSizeDo) {
   EXPECT_LT(difference(in_bands(scene, {{0, 1}, {30, 4}}), whole), 0.004);
 }
 
-/// Waves that arrive at a face in one rock at up to 70 degrees, 12 cells in the shortest wavelength of S.
+// Proves (B5): waves that arrive at a face in one rock at up to 70 degrees, 12 cells in the shortest
+// wavelength of S.
 TEST(Bands, ReflectNextToNothingInOneRock) {
   StackScene stack{"one rock", {{3000, 1700, 2200}}};
   stack.peak_hz = 20, stack.spacing_m = 2, stack.order = 7, stack.duration_s = 0.6, stack.margin_m = 200;
