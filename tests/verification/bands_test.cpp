@@ -68,6 +68,21 @@ TEST(Bands, OfMudBelowWaterGiveItsExactTraces) {
   EXPECT_LT(difference(in_bands(stack.scene(), {{0, 1}, {60, 4}}), stack.exact().front()), 0.01);
 }
 
+/// What both bands read or move is wrong by its own size; cells of one size are wrong there by up to 9 %.
+TEST(Bands, ReadAndMovePointsOnAndBesideAFaceOnce) {
+  constexpr double bound = 0.1;
+  for (const double at : {30., 29.4, 31.}) {
+    auto stack = soft_ground();
+    stack.receivers = line_at(at, 200), stack.duration_s = 0.4;
+    EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), bound) << at;
+  }
+  for (const double at : {29.4, 31.}) {
+    auto stack = soft_ground();
+    stack.source_b = at, stack.duration_s = 0.4;
+    EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), bound) << at;
+  }
+}
+
 // Proves (B4): with the same time step cells of one size and bands differ by what the larger cells do to
 // waves.
 TEST(Bands, DifferLittleFromCellsOfOneSizeAtTheSameTimeStep) {

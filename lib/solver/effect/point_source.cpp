@@ -18,7 +18,8 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
       wavelet_(source.wavelet),
       delay_s_(source.delay_s),
       unit_(unit) {
-  if (domain.subdomain.owns(domain.model_grid, source.position_m)) weigh(source);
+  const bool isotropic = point_injection(source)->isotropic;
+  if (owns_point(domain, source.position_m, isotropic ? Side::fluid : Side::solid)) weigh(source);
   if (ranks) share(*ranks);
   find_rows();
   std::stable_sort(values_.begin(), values_.end(),

@@ -69,7 +69,9 @@ std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layou
                                                                      std::size_t shot) {
   std::vector<std::vector<ValueWeight>> firsts, others;
   const auto receivers = scene.survey.receivers_of(shot);
-  const auto owned = [&](const Point<D>& point) { return domain.subdomain.owns(domain.model_grid, point); };
+  const auto owned = [&](const Point<D>& point, Side side = Side::solid) {
+    return owns_point(domain, point, side);
+  };
   const auto weights_at = [&](const GaugePoint<D>& point) {
     return owned(point.at_m) ? velocity_along<D>(layout, domain, point.at_m, point.weight_per_m)
                              : std::vector<ValueWeight>{};
@@ -88,7 +90,8 @@ std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layou
       } else {
         const auto& point_m = receivers[n].point_m;
         firsts.emplace_back();
-        if (owned(point_m)) firsts.back() = component_weights<D>(layout, domain, point_m, component);
+        if (owned(point_m, component == Component::p ? Side::fluid : Side::solid))
+          firsts.back() = component_weights<D>(layout, domain, point_m, component);
       }
     }
   firsts.insert(firsts.end(), others.begin(), others.end());

@@ -244,14 +244,37 @@ ExtendedCells<D> extended_cells(const Domain<D>& domain, const Index<D>& centre,
   return usable;
 }
 
+/// Whether a cell is of a side.
+template <int D>
+static bool is_of(const Domain<D>& domain, const Index<D>& cell, Side side) {
+  return domain.impedance(wave_p)(cell) > 0 && (domain.impedance(wave_s)(cell) > 0) == (side == Side::solid);
+}
+
+template <int D>
+bool owns_point(const Domain<D>& domain, const Point<D>& point_m, Side side) {
+  if (!domain.subdomain.other_cells) return domain.subdomain.owns(domain.model_grid, point_m);
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  const double row = domain.grid.position(D - 1, place[D - 1]) + 0.5;
+  for (const int of : {0, 1}) {
+    const auto face = of ? domain.own.last : domain.own.first;
+    if (!domain.subdomain.cut(of) || std::abs(row - double(face)) > on_face) continue;
+    Index<D> behind = domain.computed_cell(cell_of(domain.model_grid, point_m));
+    behind[D - 1] = face;
+    Index<D> before = behind;
+    --before[D - 1];
+    const bool in_front = is_of(domain, before, side) && !is_of(domain, behind, side);
+    return in_front == (of == 1);
+  }
+  return domain.owns(std::int64_t(std::floor(row))) || (row < 0 && !domain.subdomain.cut(0)) ||
+         (row >= double(domain.grid.shape[D - 1]) && !domain.subdomain.cut(1));
+}
+
 template <int D>
 Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
-  const Index<D> at = domain.computed_cell(cell_of(domain.model_grid, point_m));
+  Index<D> at = domain.computed_cell(cell_of(domain.model_grid, point_m));
+  if (domain.subdomain.other_cells) at[D - 1] = std::clamp(at[D - 1], domain.own.first, domain.own.last - 1);
   const auto& p_waves = domain.impedance(wave_p);
-  const auto& s_waves = domain.impedance(wave_s);
-  const auto counts = [&](const Index<D>& cell) {
-    return p_waves(cell) > 0 && (s_waves(cell) > 0) == (side == Side::solid);
-  };
+  const auto counts = [&](const Index<D>& cell) { return is_of(domain, cell, side); };
   if (counts(at)) return at;
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   for (int axis = 0; axis < D; ++axis)
@@ -261,7 +284,8 @@ Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
       const double face = double(cell) + 0.5 * beyond;
       cell += beyond;
       if (std::abs(domain.grid.position(axis, place[axis]) - face) > on_face || cell < 0 ||
-          cell >= domain.grid.shape[std::size_t(axis)])
+          cell >= domain.grid.shape[std::size_t(axis)] ||
+          (domain.subdomain.other_cells && !domain.owns(beside[D - 1])))
         continue;
       if (counts(beside) || (p_waves(at) == 0 && p_waves(beside) > 0)) return beside;
     }
@@ -355,6 +379,8 @@ template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<
 template ExtendedCells<2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
                                                         int, Side);
+template bool owns_point(const Domain<2>&, const Point<2>&, Side);
+template bool owns_point(const Domain<3>&, const Point<3>&, Side);
 template int row_of<2>(const WaveField&);
 template Index<3> cell_at(const Domain<3>&, const Point<3>&, Side);
 template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int, Side);

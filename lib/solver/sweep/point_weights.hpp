@@ -68,4 +68,9 @@ int row_of(const WaveField& field);
 template <int D>
 Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side = Side::solid);
 
+/// Whether a point is in the cells that a domain owns. On a face between bands it is in those behind, unless
+/// only those before it are of its side.
+template <int D>
+bool owns_point(const Domain<D>& domain, const Point<D>& point_m, Side side = Side::solid);
+
 }  // namespace slipwave::solver
