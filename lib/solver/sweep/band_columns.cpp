@@ -53,11 +53,12 @@ std::vector<std::vector<double>> isometric_taps(int ratio, double least) {
       squares += (sum[0] * sum[0] + sum[1] * sum[1]) / ratio;
     }
     for (int n = 0; n < ratio; ++n)
-      for (int o = -samples / 2; o < samples / 2; ++o)
-        all[std::size_t(n)][std::size_t(o + samples / 2)] +=
-            (symbols[std::size_t(n)][0] * std::cos(theta * o) +
-             symbols[std::size_t(n)][1] * std::sin(theta * o)) /
+      for (std::size_t at = 0; at < samples; ++at) {
+        const double turn = theta * (double(at) - samples / 2.);
+        all[std::size_t(n)][at] +=
+            (symbols[std::size_t(n)][0] * std::cos(turn) + symbols[std::size_t(n)][1] * std::sin(turn)) /
             (std::sqrt(squares) * samples);
+      }
   }
   std::size_t reach = 0;
   for (const auto& taps : all)
