@@ -106,6 +106,31 @@ TEST(Bands, AttenuateAsCellsOfOneSizeDo) {
   EXPECT_LT(difference(in_bands(scene, {{0, 1}, {30, 4}}), whole), 0.004);
 }
 
+/// Compliant planes on both sides of a face and across it.
+TEST(Bands, GiveWayAsCellsOfOneSizeDo) {
+  auto stack = soft_ground();
+  stack.duration_s = 0.3, stack.spacing_m = 1;
+  auto scene = stack.scene();
+  auto& model = scene.model;
+  model.fracture = Field<2, std::uint8_t>(model.grid());
+  for (std::int64_t n = 0; n < model.grid().size(); ++n) {
+    const auto at = model.grid().index(n);
+    const double x = model.grid().centre(0, at[0]), z = model.grid().centre(1, at[1]);
+    model.fracture[std::size_t(n)] = std::abs(x - 140) < 40 && std::abs(z - 34) < 20;
+  }
+  SlipSystem<2> planes;
+  planes.normal = {0.6, 0.8}, planes.law = FrictionLaw::none;
+  planes.compliance.normal_m_per_pa = 1e-10, planes.compliance.tangential_m_per_pa = 2e-10,
+  planes.compliance.spacing_m = 1;
+  model.fracture_sets = {{"planes", {planes}}};
+  const auto whole = shoot(scene, 1);
+  auto intact = scene;
+  intact.with_slip = false;
+  EXPECT_GT(difference(shoot(intact, 1), whole), 0.05);
+  scene.numerics.cfl /= 4;
+  EXPECT_LT(difference(in_bands(scene, {{0, 1}, {30, 4}}), whole), 0.01);
+}
+
 // Proves (B5): waves that arrive at a face in one rock at up to 70 degrees, 12 cells in the shortest
 // wavelength of S.
 TEST(Bands, ReflectNextToNothingInOneRock) {
