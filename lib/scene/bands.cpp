@@ -411,7 +411,6 @@ void check_bands(const Scene<D>& scene) {
              "one of them 2, 3 or " + std::to_string(widest_step_of_bands) + " times the other");
   }
   if (scene.numerics.time_step_s) refuse("--time-step", "--cfl with bands");
-  if (scene.snapshot_every_s) refuse("--snapshots", "none with bands");
   if (scene.numerics.monotone) refuse("--monotone", "it without bands");
   for (const auto& source : scene.survey.sources)
     if (std::holds_alternative<PlaneWave<D>>(source.mechanism))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "grid/locate.hpp"
 #include "scene/bands.hpp"
 #include "scene/empty_gather.hpp"
 #include "scene/surroundings.hpp"
@@ -11,11 +12,13 @@
 namespace slipwave::solver {
 
 template <int D, class Real>
-BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot)
-    : scene_(&scene), shot_(shot), scenes_(scenes_of_bands(scene)) {
+BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink)
+    : scene_(&scene), shot_(shot), sink_(sink), scenes_(scenes_of_bands(scene)) {
+  // The bands record snapshots, which are put together here.
+  const auto nowhere = sink ? SnapshotSink<D>([](double, const FieldReader<D>&) {}) : SnapshotSink<D>();
   const auto all = in_all_bands(scenes_, shot);
   for (const auto& band : scenes_)
-    parts_.push_back(std::make_unique<ShotSimulation<D, Real>>(band, shot, SnapshotSink<D>(), nullptr, &all));
+    parts_.push_back(std::make_unique<ShotSimulation<D, Real>>(band, shot, nowhere, nullptr, &all));
   std::vector<std::array<SharedFaces<Real>*, 2>> shared;
   for (auto& part : parts_) shared.push_back(part->sweeps().share_faces(part->domain()));
   for (std::size_t n = 1; n < parts_.size(); ++n)
@@ -37,11 +40,42 @@ void BandedShot<D, Real>::run_to(std::int64_t last, const Progress& progress,
     for (auto& part : parts_) part->plain().start();
   for (auto n = done(); n < last; ++n) {
     if (pause && pause()) return;
-    make_step({n, parts_.front()->time_step().dt_s()});
+    const StepTime time{n, parts_.front()->time_step().dt_s()};
+    bool snapshot = false;
+    for (auto& part : parts_) snapshot = sink_ && part->prepare_snapshot(n, n + 1);
+    make_step(time);
     for (auto& part : parts_) part->made(n + 1);
+    if (snapshot) {
+      sink_(time.end_s(), [this](const FieldKey& key) { return whole_field(key); });
+      for (auto& part : parts_) part->release_snapshot();
+    }
     if (progress) progress(n + 1, steps());
     if ((n + 1) % StabilityCheck<D, Real>::every == 0 || n + 1 == steps()) check_stability();
   }
+}
+
+/// On the cells of the scene's own model: each has the value of the cell of a band that its centre lies in.
+template <int D, class Real>
+Field<D> BandedShot<D, Real>::whole_field(const FieldKey& key) const {
+  std::vector<Field<D>> of_bands;
+  for (const auto& part : parts_) of_bands.push_back(part->local_field(key));
+  const auto& bands = scene_->numerics.bands;
+  Field<D> field(scene_->model.grid());
+  const auto& grid = field.grid();
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto at = grid.index(n);
+    Point<D> centre;
+    for (int axis = 0; axis < D - 1; ++axis) centre[std::size_t(axis)] = grid.centre(axis, at[axis]);
+    centre[D - 1] = grid.depth(at);
+    const auto below = std::upper_bound(bands.begin() + 1, bands.end(), centre[D - 1],
+                                        [](double depth_m, const Band& of) { return depth_m < of.from_m; });
+    const auto band = std::size_t(below - bands.begin() - 1);
+    const auto& part = scenes_[band].subdomain;
+    auto cell = cell_of(of_bands[band].grid(), centre);
+    cell[D - 1] = std::clamp(cell[D - 1], part.first, part.last - 1);
+    field[std::size_t(n)] = of_bands[band](cell);
+  }
+  return field;
 }
 
 template <int D, class Real>

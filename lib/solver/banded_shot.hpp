@@ -18,7 +18,7 @@ template <int D, class Real>
 class BandedShot {
  public:
   /// Throws as scenes_of_bands(). Keeps a reference.
-  BandedShot(const Scene<D>& scene, std::size_t shot);
+  BandedShot(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots = {});
 
   void run_to(std::int64_t last, const Progress& progress = {}, const std::function<bool()>& pause = {});
   std::int64_t steps() const { return parts_.front()->steps(); }
@@ -41,10 +41,12 @@ class BandedShot {
   std::int64_t sum_of_parts(Of&& of) const;
   void make_step(const StepTime& time);
   void check_stability() const;
+  Field<D> whole_field(const FieldKey& key) const;
   void sweep_across(std::size_t number, const StepTime& time);
 
   const Scene<D>* scene_;
   std::size_t shot_;
+  SnapshotSink<D> sink_;
   std::vector<Scene<D>> scenes_;
   std::vector<std::unique_ptr<ShotSimulation<D, Real>>> parts_;
   std::vector<BandFace<D, Real>> faces_;   // below each band but the last

@@ -166,7 +166,7 @@ void ShotSimulation<D, Real>::run_to(std::int64_t last, const Progress& progress
   for (bool paused = false; done_ < last && !paused; paused = pause && pause()) {
     // No step is in progress where all fields are checked or written.
     std::int64_t until = std::min(last, StabilityCheck<D, Real>::next_after(done_) + 1);
-    const bool snapshot = snapshots_.prepare(done_, until, dt_s_);
+    const bool snapshot = prepare_snapshot(done_, until);
     if (snapshot) until = snapshots_.step() + 1;
     done_ = executor_->run(done_, until, pause);
     if (snapshot && done_ == until) take_snapshot();
@@ -189,15 +189,18 @@ void ShotSimulation<D, Real>::serialize(Archive& archive) {
 
 template <int D, class Real>
 void ShotSimulation<D, Real>::take_snapshot() {
-  sink_(StepTime{snapshots_.step(), dt_s_}.end_s(), [&](const FieldKey& key) {
-    if (const auto* component = std::get_if<Component>(&key))
-      return allgather_field(snapshots_.field(*component));
-    Field<D> field(domain_.model_grid);
-    for (const auto& effect : effects_)
-      if (effect->fill(std::get<SlipField>(key), field)) break;
-    return allgather_field(std::move(field));
-  });
-  snapshots_.release();
+  sink_(StepTime{snapshots_.step(), dt_s_}.end_s(),
+        [&](const FieldKey& key) { return allgather_field(local_field(key)); });
+  release_snapshot();
+}
+
+template <int D, class Real>
+Field<D> ShotSimulation<D, Real>::local_field(const FieldKey& key) const {
+  if (const auto* component = std::get_if<Component>(&key)) return snapshots_.field(*component);
+  Field<D> field(domain_.model_grid);
+  for (const auto& effect : effects_)
+    if (effect->fill(std::get<SlipField>(key), field)) break;
+  return field;
 }
 
 /// Checks, and from time to time exchanges the findings: throws the earliest one on all ranks.

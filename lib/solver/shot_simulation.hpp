@@ -61,6 +61,14 @@ class ShotSimulation {
   State<D, Real>& state() { return state_; }
   PlainExecutor<D, Real>& plain() { return dynamic_cast<PlainExecutor<D, Real>&>(*executor_); }
   void made(std::int64_t steps) { done_ = steps; }
+  /// Whether a snapshot is due at the end of a step first <= n < last, which then is taken: local_field()
+  /// has it until release_snapshot().
+  bool prepare_snapshot(std::int64_t first, std::int64_t last) {
+    return snapshots_.prepare(first, last, dt_s_);
+  }
+  /// On the model's cells of this grid.
+  Field<D> local_field(const FieldKey& key) const;
+  void release_snapshot() { snapshots_.release(); }
   /// What it holds: while it runs all but the samples; of what it records, with them; and while it is built
   /// beside fields and effects.
   std::int64_t memory_bytes() const;

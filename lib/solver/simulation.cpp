@@ -95,9 +95,9 @@ void run(Simulation& simulation, const Progress& progress, Pauses* pauses) {
 }
 
 template <int D, class Real>
-Gather shoot_in_bands(const Scene<D>& scene, std::size_t shot, const Progress& progress, Pauses* pauses,
-                      ShotReport* report) {
-  solver::BandedShot<D, Real> simulation(scene, shot);
+Gather shoot_in_bands(const Scene<D>& scene, std::size_t shot, const Progress& progress,
+                      const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report) {
+  solver::BandedShot<D, Real> simulation(scene, shot, scene.snapshot_every_s ? snapshots : SnapshotSink<D>());
   try {
     run(simulation, progress, pauses);
   } catch (const solver::DivergedFields<D>& seen) {
@@ -113,7 +113,8 @@ Gather shoot_in_bands(const Scene<D>& scene, std::size_t shot, const Progress& p
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
                 const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
-  if (!scene.numerics.bands.empty()) return shoot_in_bands<D, Real>(scene, shot, progress, pauses, report);
+  if (!scene.numerics.bands.empty())
+    return shoot_in_bands<D, Real>(scene, shot, progress, snapshots, pauses, report);
   solver::ShotSimulation<D, Real> simulation(scene, shot, snapshots, ranks);
   try {
     run(simulation, progress, pauses);

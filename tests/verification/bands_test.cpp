@@ -171,6 +171,29 @@ TEST(Bands, InSpaceAreAsCellsOfOneSize) {
   }
 }
 
+/// One picture of all bands, on the cells of the model.
+TEST(Bands, GiveSnapshotsOnTheCellsOfTheModel) {
+  auto stack = soft_ground();
+  stack.spacing_m = 1, stack.duration_s = 0.25;
+  auto scene = stack.scene();
+  scene.snapshot_every_s = 0.25;
+  const auto last_of = [](const Scene<2>& of) {
+    Field<2> last;
+    shoot<2>(of, 1, {}, [&](double, const FieldReader<2>& field) { last = field(Component::vz); });
+    return last;
+  };
+  const auto whole = last_of(scene);
+  scene.numerics.cfl /= 4;
+  scene.numerics.bands = {{0, 1}, {30, 4}};
+  const auto banded = last_of(scene);
+  ASSERT_EQ(banded.grid(), scene.model.grid());
+  double squares = 0, all = 0;
+  for (std::size_t n = 0; n < whole.size(); ++n)
+    squares += std::pow(banded[n] - whole[n], 2), all += std::pow(whole[n], 2);
+  // Values of cells of 4 m stand for those of 1 m.
+  EXPECT_LT(std::sqrt(squares / all), 0.05);
+}
+
 TEST(Bands, GiveTheSameBitsWhateverTheThreadsAndInPieces) {
   auto scene = soft_ground().scene();
   scene.recording.duration_s = 0.05;
