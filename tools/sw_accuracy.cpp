@@ -200,7 +200,7 @@ void measure(const Settings& s, const Scene<D>& scene, const cli::Context& conte
                     {[&s](Scene<D>& again) { s.shot.place_again(again); },
                      [&context](const std::string& title) { return context.progress(title, "steps"); }});
   const auto ladder = held_ladder(runs, ladder_of(s, scene));
-  // A name that can not be written costs no computing.
+  // A name that cannot be written costs no computing.
   std::optional<OutputFile> out;
   if (!s.output.empty()) out.emplace(s.output, OutputFile::Content::binary);
 

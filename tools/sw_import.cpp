@@ -330,7 +330,7 @@ Inputs read_inputs(const Settings& settings) {
   return inputs;
 }
 
-/// Speeds are 0 in void (rho 0); a constant can not say so.
+/// Speeds are 0 in void (rho 0); a constant cannot say so.
 template <int D>
 void clear_void(Medium<D>& medium, const Settings& settings) {
   for (const Property property : {Property::vp, Property::vs}) {

@@ -113,7 +113,7 @@ void add_log(const Settings& settings, const InputUnits& units, std::vector<Laye
   layers.insert(after, std::move(layer));
 }
 
-/// Throws a usage Error on a value that a property can not have.
+/// Throws a usage Error on a value that a property cannot have.
 void check_values(const Layer& layer) {
   const auto check_value = [](Property property, double value) {
     const auto& row = row_of(property);

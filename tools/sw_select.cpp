@@ -43,7 +43,7 @@ std::optional<Expression> condition_of(const std::string& text) {
   });
 }
 
-/// The file header says how many traces follow. Files are read for it beforehand, pipes can not be: 0.
+/// The file header says how many traces follow. Files are read for it beforehand, pipes cannot be: 0.
 SelectionCounts counts_of(const Settings& settings, const Expression& condition) {
   if (!is_regular_input(settings.input)) return {};
   segy::Reader reader(settings.input, settings.input_options.to_damage());

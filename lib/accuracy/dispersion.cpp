@@ -68,7 +68,7 @@ void sweep(Amplitudes& u, const UniformScheme& scheme, int axis, double part, do
   if (s > 0) sweep_pair(u[across], u[4], scheme.order, s, part, phase);
 }
 
-/// The strain that belongs to stresses: their product is twice the energy. What fluids can not carry is 0.
+/// The strain that belongs to stresses: their product is twice the energy. What fluids cannot carry is 0.
 Amplitudes strained(const UniformScheme& scheme, const Amplitudes& u) {
   const double stiff = scheme.courant_p * scheme.courant_p, mu = scheme.courant_s * scheme.courant_s;
   const double lambda = stiff - 2 * mu;

@@ -39,7 +39,7 @@ template <int D>
 std::string name_of(const AccuracySetting& setting, const Scene<D>& scene);
 
 /// Relative L2 norms of what is wrong with gathers. Velocities are taken together and so are stresses and
-/// pressure; the larger of the two counts: m/s and Pa can not be added.
+/// pressure; the larger of the two counts: m/s and Pa cannot be added.
 struct GatherError {
   double whole = 0;
   double late = 0;  // last quarter of the samples

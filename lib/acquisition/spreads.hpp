@@ -34,7 +34,7 @@ class Spreads {
   const GivenSurvey& given() const { return given_; }
   /// The model it is in, before which nothing has a place.
   void put_on(Ground<D> ground) { ground_ = std::move(ground); }
-  /// Throws Error naming the receiver where its depth can not be found.
+  /// Throws Error naming the receiver where its depth cannot be found.
   std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
   std::size_t count_of(std::size_t shot) const;
   /// Calls `see` with every place of a receiver, once where it stands, and a shot and number (from 1) of it.

@@ -73,7 +73,7 @@ struct Survey {
   std::vector<std::vector<Source<D>>> blended = {};
   /// Of shots with receivers, channels or numbers of their own; none: channels count from 1, shots too.
   std::optional<Spreads<D>> spreads = {};
-  /// What a place is that can not be in the model: options' misuse, or wrong data of files.
+  /// What a place is that cannot be in the model: options' misuse, or wrong data of files.
   ErrorKind misplaced = ErrorKind::data;
 
   std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
@@ -113,7 +113,7 @@ std::string name_of_receiver(const Survey<D>& survey, std::size_t shot, std::siz
 
 /// Puts the places of a survey that options gave (its spreads) into a model of that ground: sources get their
 /// positions, receivers are found or, where all shots have the same and channels from 1, listed. Throws an
-/// Error naming what can not be placed.
+/// Error naming what cannot be placed.
 template <int D>
 void place(Survey<D>& survey, Ground<D> ground);
 

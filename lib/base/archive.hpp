@@ -12,7 +12,7 @@
 namespace slipwave {
 
 /// Serializes a state to continue from later, piece by piece: writes it, or reads it back in the same order.
-/// The owner names the pieces in one function for both directions, so that they can not differ.
+/// The owner names the pieces in one function for both directions, so that they cannot differ.
 class Archive {
  public:
   virtual ~Archive() = default;

@@ -36,7 +36,7 @@ void each_zero_run(std::span<const std::byte> pages, const See& see) {
   }
 }
 
-/// Private memory without a file behind it is zeros after this; false where the system can not.
+/// Private memory without a file behind it is zeros after this; false where the system cannot.
 bool discard(std::span<const std::byte> pages) {
 #if defined(__linux__)
   return pages.empty() || madvise(const_cast<std::byte*>(pages.data()), pages.size(), MADV_DONTNEED) == 0;

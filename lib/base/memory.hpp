@@ -11,7 +11,7 @@ namespace slipwave {
 
 /// Gives the pages of heap memory that hold nothing but zeros back to the system: they are read as zeros as
 /// before, and take memory again once they are written, on some systems once they are read. Where the system
-/// can not, all stays as it is.
+/// cannot, all stays as it is.
 void release_zero_pages(std::span<const std::byte> memory);
 
 /// Makes heap memory zeros that take no memory until they are written, where the system can.

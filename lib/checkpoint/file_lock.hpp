@@ -10,7 +10,7 @@ namespace slipwave {
 /// ends with it, its file stays and is taken over.
 class FileLock {
  public:
-  /// Throws an Error that names `what` when somebody else has it, or when the file can not be made. Where the
+  /// Throws an Error that names `what` when somebody else has it, or when the file cannot be made. Where the
   /// file system knows no locks there is none.
   FileLock(std::string path, const std::string& what);
   FileLock(const FileLock&) = delete;

@@ -227,7 +227,7 @@ void RunState::checkpoint_if_due() {
   if (ends_ != 0) throw Interrupted{ends_};
 }
 
-/// While all shots wait. A checkpoint that can not be written does not end the run: the older one is there.
+/// While all shots wait. A checkpoint that cannot be written does not end the run: the older one is there.
 void RunState::write_checkpoint() {
   ends_ = watch_->noted();
   const std::string ended = ends_ == 0 ? "" : "ended by signal " + std::to_string(ends_);

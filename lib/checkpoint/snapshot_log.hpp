@@ -19,7 +19,7 @@ struct SnapshotMark {
 };
 
 /// The snapshots of a shot as they were taken, in a private file beside its checkpoint: what a shot that is
-/// taken up again does not see any more. A netCDF file can not be cut back to an earlier moment; this one
+/// taken up again does not see any more. A netCDF file cannot be cut back to an earlier moment; this one
 /// can.
 template <int D>
 class SnapshotLog {

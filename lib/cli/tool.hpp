@@ -92,7 +92,7 @@ class Options {
 /// A file of all that is said, with the time of each line: one that is there is continued.
 class Log {
  public:
-  /// `first`: what stands before all else, once there is anything. Throws Error where the file can not be
+  /// `first`: what stands before all else, once there is anything. Throws Error where the file cannot be
   /// written.
   Log(const std::string& path, std::string first);
   ~Log();

@@ -8,7 +8,7 @@
 
 namespace slipwave {
 
-/// Why the fractures of a model can not be computed in its anisotropic rock.
+/// Why the fractures of a model cannot be computed in its anisotropic rock.
 struct AnisotropicFault {
   std::string text;         // "..., expected ..."
   bool of_opening = false;  // there is none where planes stay closed

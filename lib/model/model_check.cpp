@@ -160,7 +160,7 @@ void check_compliance(const SlipSystem<D>& system, bool single, bool on_faces, c
     throw Error(name + ": planes that open carry no tension, planes with a compliance do; give one of both");
 }
 
-/// What families of planes of one set can not have together.
+/// What families of planes of one set cannot have together.
 template <int D>
 void check_together(const FractureSet<D>& set, const std::string& name) {
   if (!gives(set) || set.systems.size() == 1) return;
@@ -174,7 +174,7 @@ void check_together(const FractureSet<D>& set, const std::string& name) {
   }
 }
 
-/// What single fractures can not have.
+/// What single fractures cannot have.
 template <int D>
 void check_single(const FractureSet<D>& set, const std::string& name) {
   if (set.on_faces && set.traces.empty())

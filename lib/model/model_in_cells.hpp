@@ -28,7 +28,7 @@ class ModelInCells {
   bool as_built() const { return as_built_; }
   /// Whether it does and rows follow fewer kinds of horizons than they might (fitted()).
   bool could_be_fitted() const;
-  /// How many horizons rows of other cells can not follow, though they were to; 0 where nothing is known.
+  /// How many horizons rows of other cells cannot follow, though they were to; 0 where nothing is known.
   std::size_t left_out(double spacing_m) const;
   /// Whether horizons cut cells, which no rows follow or which these leave out: where they do so differs from
   /// size to size, and no more than first order is kept.

@@ -21,8 +21,8 @@ struct InputFile {
   std::string history() const;
 };
 
-/// Finds out what kind of file it is; "-" is standard input. `su`: traces are Seismic Unix, which can not be
-/// told by their looks. Throws Error naming the file when it can not be drawn.
+/// Finds out what kind of file it is; "-" is standard input. `su`: traces are Seismic Unix, which cannot be
+/// told by their looks. Throws Error naming the file when it cannot be drawn.
 InputFile open_input(const std::string& path, bool su);
 
 }  // namespace slipwave::plot

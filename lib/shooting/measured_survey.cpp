@@ -164,7 +164,7 @@ void say(const MeasuredError& measured, const SceneRuns<D>& runs, double all_s, 
                  " s of processor time");
 }
 
-/// Names that can not be written cost no computing.
+/// Names that cannot be written cost no computing.
 void expect_writable(const OutputOptions& output, const std::vector<Component>& components,
                      const std::vector<std::size_t>& shots) {
   TraceFiles files(output, components, {}, {}, {});

@@ -35,7 +35,7 @@ segy::FileFormat OutputOptions::trace_format(const Recording& recording) const {
   return format;
 }
 
-/// What the trace files can not hold is refused before anything is computed.
+/// What the trace files cannot hold is refused before anything is computed.
 void OutputOptions::check_sampling(const Recording& recording,
                                    const std::function<void(const std::string&)>& warn) const {
   segy::FileInfo info;

@@ -36,10 +36,10 @@ struct OutputOptions {
   }
   /// Of files with the traces of such a recording, Seismic Unix aside.
   segy::FileFormat trace_format(const Recording& recording) const;
-  /// Throws a usage Error on options that contradict each other or can not hold all shots.
+  /// Throws a usage Error on options that contradict each other or cannot hold all shots.
   template <int D>
   void check(std::size_t shots) const;
-  /// Throws an Error on what the outputs of a checked scene can not hold, and warns of what they lose.
+  /// Throws an Error on what the outputs of a checked scene cannot hold, and warns of what they lose.
   template <int D>
   void check_scene(const Scene<D>& scene, const std::function<void(const std::string&)>& warn) const;
 

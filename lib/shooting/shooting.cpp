@@ -77,7 +77,7 @@ Scene<D> make_scene(const ShootingOptions& options) {
   return scene;
 }
 
-/// What several processes can not do together.
+/// What several processes cannot do together.
 void check_on_ranks(const ShootingOptions& options, int count) {
   const auto refuse = [&](bool given, const std::string& option, const std::string& remedy) {
     if (given)

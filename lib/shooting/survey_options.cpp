@@ -248,7 +248,7 @@ GivenSurvey SurveyOptions::read_geometry(int dimension) const {
                       "the S, R and X files of SPS",
                   ErrorKind::usage);
     if (!start.is_regular() && geometry.size() > 1)
-      throw Error("--geometry: " + shown_input(path) + " can not be read twice, expected a file",
+      throw Error("--geometry: " + shown_input(path) + " cannot be read twice, expected a file",
                   ErrorKind::usage);
   }
   GivenSurvey survey;

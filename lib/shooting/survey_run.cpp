@@ -186,7 +186,7 @@ void SurveyRun<D>::finish_outputs(std::span<const std::size_t> some, const std::
 }
 
 /// When a shot has become unstable: complete files of other shots are put in place, all the rest under other
-/// names where that is wanted. Returns these names; what can not be written is a warning.
+/// names where that is wanted. Returns these names; what cannot be written is a warning.
 template <int D>
 std::vector<std::string> SurveyRun<D>::save_unstable(const Unstable& error) {
   std::vector<std::string> saved;

@@ -16,7 +16,7 @@
 namespace slipwave {
 
 /// The SEG-Y files of a run. They are opened before the shots that go into them are simulated, so that a name
-/// that can not be written costs no computing.
+/// that cannot be written costs no computing.
 class TraceFiles {
  public:
   /// `components`: what is recorded; empty where there are no traces. `textual_header`: of every file.

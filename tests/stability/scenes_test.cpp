@@ -299,7 +299,7 @@ void expect_no_growth(const Drawn& drawn) {
   EXPECT_GT(looks, 10) << "no snapshots after the source";
 }
 
-/// Gives planes of all sets springs, some without friction above them, and takes what can not be with
+/// Gives planes of all sets springs, some without friction above them, and takes what cannot be with
 /// springs.
 void add_springs(Draws& draws, Drawn& drawn) {
   auto& model = drawn.scene.model;

@@ -45,7 +45,7 @@ std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D,
         for (const auto& of : found) {
           const IndexRange run{(of.first + beside + block - 1) / block * block,
                                (of.last - beside) / block * block};
-          // The impedance of void can not be divided by.
+          // The impedance of void cannot be divided by.
           if (run.count() >= fewest_cells && of.zp > 0) runs.push_back(run);
         }
       };
