@@ -38,8 +38,7 @@ Marker marker_of(std::size_t index) {
 
 std::vector<Spot> line_of(const Panel& panel, const ErrorSeries& series) {
   std::vector<Spot> line;
-  for (const auto& point : series.points)
-    if (point.measured()) line.push_back({panel.x(point.seconds), panel.y(point.error)});
+  for (const auto& point : series.points) line.push_back({panel.x(point.seconds), panel.y(point.error)});
   return line;
 }
 
@@ -64,7 +63,6 @@ void draw_content(Canvas& canvas, const Panel& panel, const Content& content) {
       canvas.marker(spot, curve.marker, marker_pt, curve.colour, true);
   for (const auto& curve : content.curves) {
     for (const auto& point : curve.series.points) {
-      if (!point.measured()) continue;
       const Spot spot{panel.x(point.seconds), panel.y(point.error)};
       if (point.chosen) canvas.ring(spot, ring_pt, {chosen_colour, 1.4});
       labels.label(canvas, spot, point.chosen ? 2 * ring_pt : marker_pt, shown(point.spacing_m) + " m",
@@ -79,8 +77,7 @@ std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves, const std::
   bool any_chosen = false;
   for (std::size_t n = 0; n < curves.size(); ++n) {
     entries.push_back({names[n], curves[n].colour, Stroke{curves[n].colour, 1.2}, curves[n].marker});
-    for (const auto& point : curves[n].series.points)
-      any_chosen = any_chosen || (point.chosen && point.measured());
+    for (const auto& point : curves[n].series.points) any_chosen = any_chosen || point.chosen;
   }
   for (const double percent : wanted)
     entries.push_back(
@@ -97,11 +94,8 @@ void set_axes(PanelSpec& spec, const std::vector<Content>& contents) {
     limits.high = std::max(limits.high, value);
   };
   for (const auto& content : contents) {
-    for (const auto& curve : content.curves) {
-      for (const auto& point : curve.series.points) {
-        if (point.measured()) see(x, point.seconds), see(y, point.error);
-      }
-    }
+    for (const auto& curve : content.curves)
+      for (const auto& point : curve.series.points) see(x, point.seconds), see(y, point.error);
     if (x.high > 0) {
       for (const double wanted : content.wanted_percent) see(y, wanted);
     }

@@ -11,6 +11,7 @@ std::vector<ErrorSeries> series_of(const AccuracyTable& table) {
   std::vector<ErrorSeries> all;
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
     const auto& row = table.rows[n];
+    if (!(row.seconds > 0 && row.error > 0)) continue;
     const Method method{row.order, row.time_order, row.slip_order, row.courant, row.monotone};
     auto series = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.method == method; });
     if (series == all.end()) series = all.insert(all.end(), {method, {}});

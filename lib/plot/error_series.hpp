@@ -18,11 +18,10 @@ struct Method {
   bool operator==(const Method&) const = default;
 };
 
-/// A cell size of a method: what it cost and gave. Percent; NaN where not known.
+/// A cell size of a method: what it cost and gave, both above 0. Percent.
 struct ErrorPoint {
   double spacing_m = 0, seconds = 0, error = 0;
   bool chosen = false;
-  bool measured() const { return seconds > 0 && error > 0; }
 };
 
 /// The points of one method in a table, coarsest cells first.
@@ -31,7 +30,8 @@ struct ErrorSeries {
   std::vector<ErrorPoint> points;
 };
 
-/// In the order in which methods first appear in the table.
+/// In the order in which methods first appear in the table. Left out is what has no place on axes of decades:
+/// the reference, whose error against itself is 0, and settings without a known error or time.
 std::vector<ErrorSeries> series_of(const AccuracyTable& table);
 
 /// "order 5", and of time order, slip order and Courant number those in which `methods` differ.
