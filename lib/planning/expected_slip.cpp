@@ -120,7 +120,7 @@ std::string sentence(const std::string& name, double viscosity_s, const Regime& 
   const std::string remedy = "; slip competes with the waves at a viscosity of about " +
                              shown(of.under.competing_viscosity_s, 2) + " s (sw-fracture --for-frequency)";
   if (of.traction_over_strength < 1 / far_from)
-    return set + "can not slip: the shear traction of the waves, about " + shown(of.under.traction_pa, 2) +
+    return set + "cannot slip: the shear traction of the waves, about " + shown(of.under.traction_pa, 2) +
            " Pa, is far below the strength of " + shown(of.under.strength_pa, 2) + " Pa";
   if (of.viscosity_over_competing > far_from)
     return set + "hardly slip: their viscosity of " + shown(viscosity_s, 3) + " s is too large" + remedy;

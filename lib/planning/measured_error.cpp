@@ -80,7 +80,7 @@ void add_sensitivities(SceneRuns<D>& runs, const AccuracySetting& coarse, const 
     all.push_back({"rows that follow horizons", "sw-layers --fit all",
                    change(runs, coarse, coarse, Variation::fitted), coarse.spacing_m});
   } catch (const Error&) {
-    // Rows that can not follow them are no remedy.
+    // Rows that cannot follow them are no remedy.
   }
 }
 
@@ -187,7 +187,7 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   const auto coarsest = settings.back();
   const double before_s = runs.seconds();
   if (what.itself) settings.insert(settings.begin(), setting);
-  // The expensive one comes last: what can not be run says so before.
+  // The expensive one comes last: what cannot be run says so before.
   for (auto one = settings.rbegin(); one != settings.rend(); ++one) runs.run(*one);
   const auto derived = [&](const AccuracySetting& of) {
     return runs.observed().response ? 0. : runs.direct().together(runs.discretisation_of(of));
@@ -277,7 +277,7 @@ std::string sentence_of(const MeasuredError& measured, const SceneRuns<D>& runs)
   return percent(error.whole) + " % of " +
          (runs.observed().response ? "what fractures add to the traces" : "all traces") + " (" + parts +
          (parts.empty() ? "" : "; ") + "late quarter " + percent(error.late) + "; worst trace " +
-         percent(error.worst) + ": shot " + std::to_string(runs.scene().survey.label_of(shot)) +
+         percent(error.worst) + " %: shot " + std::to_string(runs.scene().survey.label_of(shot)) +
          ", channel " + std::to_string(error.worst_channel) + ")";
 }
 

@@ -48,7 +48,7 @@ struct Measured {
 /// Measures the error of a setting: it is run, in cells of one and a half times their size, and of that again
 /// (or what the scene holds nearest to that; finer ones where it holds no larger); with error_of_sizes().
 /// What edges, which are as wide in all of these, send back is told by one more run in the largest cells with
-/// edges twice as wide, and added. Throws an Error where the scene can not be run in cells of any other size.
+/// edges twice as wide, and added. Throws an Error where the scene cannot be run in cells of any other size.
 template <int D>
 MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting, const Measured& what = {});
 

@@ -56,14 +56,14 @@ class SceneRuns {
   const DirectWaves<D>& direct() const { return direct_; }
   Discretisation discretisation_of(const AccuracySetting& setting) const;
 
-  /// The scene as it is computed with a setting. Throws an Error where it can not be.
+  /// The scene as it is computed with a setting. Throws an Error where it cannot be.
   Scene<D> scene_of(const AccuracySetting& setting, Variation variation = Variation::none) const;
   const SceneRun& run(const AccuracySetting& setting, Variation variation = Variation::none);
   /// One that was made, or null.
   const SceneRun* find(const AccuracySetting& setting, Variation variation = Variation::none) const;
 
   /// The setting in the nearest cells that the scene holds: where the model ends in an edge that sends waves
-  /// back, its size must be a whole number of them. Nothing where cells of about that size can not hold it,
+  /// back, its size must be a whole number of them. Nothing where cells of about that size cannot hold it,
   /// or put sources and receivers into another kind of matter
   /// or leave a top unfollowed, where that is not allowed.
   std::optional<AccuracySetting> held(AccuracySetting setting,

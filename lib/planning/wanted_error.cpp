@@ -84,13 +84,13 @@ class Search {
   }
 
  private:
-  /// Whether one setting can not be worse than another.
+  /// Whether one setting cannot be worse than another.
   static bool exceeds(const AccuracySetting& one, const AccuracySetting& other) {
     return one.spacing_m <= other.spacing_m && one.order >= other.order &&
            one.time_order >= other.time_order &&
            (one.cfl <= other.cfl || one.time_order > other.time_order) && one.zone_cells >= other.zone_cells;
   }
-  /// Larger errors of settings that can not be worse show that those of others are not as small as measured.
+  /// Larger errors of settings that cannot be worse show that those of others are not as small as measured.
   void refute(const MeasuredError& measured) {
     std::erase_if(tried_, [&](const SettingRun& run) {
       return exceeds(measured.setting, run.setting) && run.error < measured.by_cells;

@@ -5,7 +5,7 @@
 
 namespace slipwave {
 
-/// Throws an Error where fractures can not be computed in anisotropic rock (fault_in_anisotropic_rock()), and
+/// Throws an Error where fractures cannot be computed in anisotropic rock (fault_in_anisotropic_rock()), and
 /// names the effects of sw-shoot to switch off.
 template <int D>
 void check_anisotropy(const Scene<D>& scene);

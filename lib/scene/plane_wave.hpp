@@ -22,7 +22,7 @@ struct PlaneWaveWay {
   bool by_entry_only = false;  // of a vertical one: known in the zone it enters by, in no other
 };
 
-/// Throws an Error that says why the scene has no such wave: an edge it can not enter by, layers that differ
+/// Throws an Error that says why the scene has no such wave: an edge it cannot enter by, layers that differ
 /// between sides, fitted rows that are not level, attenuation; a wave that would already be somewhere else at
 /// t = 0.
 template <int D>

@@ -122,7 +122,7 @@ double time_step_s(const Scene<D>& scene);
 template <int D>
 int zone_cells(const Scene<D>& scene, const Source<D>& source);
 
-/// Throws an Error on the first thing that can not be computed, the model's values apart (check(model)): a
+/// Throws an Error on the first thing that cannot be computed, the model's values apart (check(model)): a
 /// source or receiver outside the model or in void, a time step above the limit, a component the dimension
 /// does not have, a plane wave through edges that do not let it in. Nothing checks again later.
 template <int D>

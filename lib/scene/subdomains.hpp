@@ -47,7 +47,7 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene);
 
 /// The rows of a model on this grid that process `number` of `count` owns: each has about as many cells to
 /// compute as the others, zones included. `scene` needs no model yet. Throws an Error where there are too few
-/// rows for so many processes, or a source that can not be distributed.
+/// rows for so many processes, or a source that cannot be distributed.
 template <int D>
 Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count);
 

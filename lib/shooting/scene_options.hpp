@@ -39,7 +39,7 @@ struct SceneOptions {
   template <int D>
   std::vector<std::string> read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
   /// Places the survey anew where it is measured from the ground, as after the model has been made anew in
-  /// smaller cells. Throws an Error naming what can not be placed.
+  /// smaller cells. Throws an Error naming what cannot be placed.
   template <int D>
   void place_again(Scene<D>& scene) const;
   /// Collective: as read_model_into() the part that this process of `all` takes, as one of the `group` (may

@@ -279,7 +279,7 @@ TEST(ExpectedSlip, SpeaksOnlyOfPlanesThatStickOrAreDry) {
   };
   EXPECT_PRED2(holds, said(0.1, 0, 0), "slip like dry friction");
   EXPECT_PRED2(holds, said(0.1, 1e30, 0), "hardly slip");
-  EXPECT_PRED2(holds, said(0.1, 1, 1e12), "can not slip");
+  EXPECT_PRED2(holds, said(0.1, 1, 1e12), "cannot slip");
   EXPECT_EQ(said(0, 1, 0), "");
   // Somewhere between there is silence, and what is proposed lies there.
   const auto text = said(0.1, 0, 0);
