@@ -8,6 +8,11 @@ set -eu
 cd "$1"
 licence=BSD-3-Clause
 tag='SPDX-License-Identifier'
+# begin_of FILE: sets $one to $five to its first lines. By the shell alone: a few processes for each file take seconds.
+begin_of() {
+  one='' two='' three='' four='' five=''
+  { IFS= read -r one && IFS= read -r two && IFS= read -r three && IFS= read -r four && IFS= read -r five; } <"$1" || :
+}
 faults=$(find .ci lib tools surveys tests docs CMakeLists.txt -type f ! -path 'surveys/*/out/*' ! -path '*/__pycache__/*' 2>/dev/null | sort |
 while IFS= read -r file; do
   case ${file##*/} in
@@ -16,11 +21,16 @@ while IFS= read -r file; do
     *.sh | *.py | *.awk | *.mk | *.cmake | Makefile | CMakeLists.txt | Dockerfile) mark='#' ;;
     *.*) continue ;;
     # Scripts that bear no ending.
-    *) case $(head -c 2 "$file") in '#!') mark='#' ;; *) continue ;; esac ;;
+    *) begin_of "$file"; case $one in '#!'*) mark='#' ;; *) continue ;; esac ;;
   esac
   wanted="$mark $tag: $licence"
-  case $(head -c 2 "$file") in '#!') at=2 ;; *) at=1 ;; esac
-  if [ "$(sed -n "${at}p" "$file")" = "$wanted" ] && [ "$(head -n 5 "$file" | grep -c "$tag: ")" = 1 ]; then continue; fi
+  begin_of "$file"
+  case $one in '#!'*) at=2 found=$two ;; *) at=1 found=$one ;; esac
+  tags=0
+  for line in "$one" "$two" "$three" "$four" "$five"; do
+    case $line in *"$tag: "*) tags=$((tags + 1)) ;; esac
+  done
+  if [ "$found" = "$wanted" ] && [ "$tags" = 1 ]; then continue; fi
   if [ "${2-}" != --write ]; then
     echo "$file: line $at should be '$wanted' (sh tests/house/licence.sh . --write)"
     continue
