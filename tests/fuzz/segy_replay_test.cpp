@@ -8,9 +8,18 @@
 #include "segy_target.hpp"
 
 // What the fuzzer looks for, from fixed seeds: damage of every kind gives an answer or an error. Run under
-// the address and undefined-behaviour sanitizers; no single allocation may pass 64 MiB.
+// the address and undefined-behaviour sanitizers; no single allocation may pass 64 MiB. Builds without them
+// do a tenth of what is drawn at random: there damage shows only where it ends the process.
 
 using namespace slipwave::segy;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;
+#elif defined(__has_feature)
+constexpr bool sanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool sanitized = false;
+#endif
 
 extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=64:quarantine_size_mb=16"; }
 
@@ -54,10 +63,10 @@ TEST(Reader, AnswersForEveryCutWithin8000BytesAndSomeBeyond) {
     }
 }
 
-TEST(Reader, AnswersForAHundredThousandChangedHeaders) {
+TEST(Reader, AnswersForThousandsOfChangedHeaders) {
   std::mt19937 random(20240611);
   const auto all = seeds(5);
-  for (int round = 0; round < 100'000; ++round) {
+  for (int round = 0; round < (sanitized ? 100'000 : 10'000); ++round) {
     Bytes bytes = all[random() % all.size()].bytes;
     change_headers(bytes, random);
     examine(bytes, round % 4 == 0 ? As::pipe : As::file);
