@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstdlib>
 
 #include "fault_scene.hpp"
 
@@ -11,13 +12,15 @@ using FaultOfMemory = FaultScene;
 
 TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
   // Address space in KiB: the libraries alone take some 80 MiB. Limits go up until the tool has what it
-  // needs.
+  // needs; by how much at a time is what the long form refines.
+  const int step = std::getenv("SLIPWAVE_LONG") ? 4000 : 16000;
+  int told = 0;
   for (const auto& command : commands()) {
     if (command.output.empty()) continue;
     write(command.output, "older");
     const auto before = files();
     bool done_once = false;
-    for (int kibibytes = 40000; kibibytes <= 800000 && !done_once; kibibytes += 4000) {
+    for (int kibibytes = 40000; kibibytes <= 800000 && !done_once; kibibytes += step) {
       const Ran ran = run("ulimit -v " + std::to_string(kibibytes) + "; " + command.to_file());
       // The dynamic loader and libraries that start up before main() have their own words for what they have
       // no room for.
@@ -27,6 +30,7 @@ TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
         continue;
       done_once = ran.code == 0;
       if (done_once) continue;
+      ++told;
       EXPECT_EQ(ran.code, 1) << kibibytes << ' ' << command.to_file() << '\n' << ran.err;
       EXPECT_EQ(ran.err.compare(0, command.tool.size() + 2, command.tool + ": "), 0) << ran.err;
       EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
@@ -35,4 +39,6 @@ TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
     }
     EXPECT_TRUE(done_once) << command.to_file();
   }
+  // Some of them have words of the loader at one limit, and room enough at the next.
+  EXPECT_GE(told, 10);
 }
