@@ -127,6 +127,8 @@ inline ForceInSpace force_in_space(const Material& rock, int cells) {
                         edges, {0, 0, 0}, "force:0,1,0", ("ricker:" + std::to_string(peak_hz)).c_str(),
                         receivers, {Component::vx, Component::vy, Component::vz}, 3.2 / peak_hz, 0.001);
   scene.numerics.order = 7;
+  // In small models layers as wide as usual are most of the cells.
+  if (!long_form()) scene.numerics.zone_cells = 10;
   return {std::move(scene), peak_hz, !tilted ? 4. : mirrored ? 2. : 1.};
 }
 

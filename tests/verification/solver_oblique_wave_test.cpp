@@ -3,6 +3,7 @@
 // field that a body scatters.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
 
 #include "fitted_medium.hpp"
@@ -171,12 +172,13 @@ TEST(ObliquePlaneWave, FromBelowIsReflectedAndConvertedByTheFreeSurface) {
 TEST(ObliquePlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   const auto gather = [](std::int64_t nx, const std::string& kind, EdgeLaw top) {
     const double h = 5;
-    auto medium = two_layers(nx, 80, h, 200);
+    auto medium = two_layers(nx, 70, h, 200);
     for (std::int64_t k = 0; k < 20 && top == EdgeLaw::free; ++k)
       for (std::int64_t i = 0; i < nx; ++i) put(medium, {i, k}, sea_water);
     const double middle = double(nx) * h / 2;
-    auto scene = scene_of(medium, kind, {middle, top == EdgeLaw::free ? 700. : -300.}, 0.7);
+    auto scene = scene_of(medium, kind, {middle, top == EdgeLaw::free ? 700. : -300.}, 0.6);
     scene.edges[1][0] = top;
+    scene.numerics.zone_cells = 12;
     scene.survey.sources[0].wavelet = parse_wavelet("ricker:15");
     scene.survey.receivers_m = {{middle - 50, 52}, {middle + 50, 152}, {middle, 302}};
     check(scene);
@@ -185,7 +187,7 @@ TEST(ObliquePlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   for (const auto& [kind, top] : {std::pair{std::string("plane:50"), EdgeLaw::absorbing},
                                   std::pair{std::string("plane-s:40"), EdgeLaw::absorbing},
                                   std::pair{std::string("plane:155"), EdgeLaw::free}})
-    EXPECT_LT(relative_error(gather(40, kind, top), gather(70, kind, top)), 0.01) << kind;
+    EXPECT_LT(relative_error(gather(30, kind, top), gather(50, kind, top)), 0.01) << kind;
 }
 
 TEST(ObliquePlaneWave, NeedsTheSameLayersAtBothSides) {
@@ -220,15 +222,15 @@ TEST(ObliquePlaneWave, GivesTheBitsOfTilesInLayersToo) {
 /// In 3-D, across y the same everywhere.
 // Proves (A16).
 TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
-  const auto flat = two_layers(24, 40, 5, 100);
+  const auto flat = two_layers(24, 28, 5, 60);
   for (const auto& [kind, flanks] :
        {std::pair{"plane:20", EdgeLaw::mirror}, std::pair{"plane-s:-30", EdgeLaw::absorbing}}) {
-    auto scene = scene_of(flat, kind, {60, -80}, 0.2);
+    auto scene = scene_of(flat, kind, {60, -80}, 0.16);
     scene.numerics.zone_cells = 12;
-    scene.survey.receivers_m = {{62.5, 52.5}, {32.5, 152.5}};
+    scene.survey.receivers_m = {{62.5, 32.5}, {32.5, 102.5}};
     check(scene);
     Scene<3> cube;
-    const Grid<3> grid{{24, 4, 40}, 5};
+    const Grid<3> grid{{24, 4, 28}, 5};
     cube.model.medium = Medium<3>(grid, flat);
     for (std::int64_t n = 0; n < grid.size(); ++n) {
       const auto at = grid.index(n);
@@ -237,11 +239,11 @@ TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
     }
     cube.model.fracture = Field<3, std::uint8_t>(grid);
     cube.survey.sources = {{{60, 10, -80}, parse_mechanism<3>(kind), parse_wavelet("ricker:20"), 1}};
-    cube.survey.receivers_m = {{62.5, 7.5, 52.5}, {32.5, 12.5, 152.5}};
+    cube.survey.receivers_m = {{62.5, 7.5, 32.5}, {32.5, 12.5, 102.5}};
     for (auto& law : cube.edges.law) law = {EdgeLaw::absorbing, EdgeLaw::absorbing};
     cube.edges[1] = {flanks, flanks};
     cube.numerics.zone_cells = 12;
-    cube.recording = {{Component::vx, Component::vz}, 0.2, 0.001};
+    cube.recording = {{Component::vx, Component::vz}, 0.16, 0.001};
     check(cube);
     EXPECT_LT(relative_error(samples_of(shoot(cube, 1)), samples_of(shoot(scene, 1))), 5e-3) << kind;
   }
@@ -377,6 +379,7 @@ std::vector<double> scattered(const std::string& kind, double h, double margin_m
 // Proves (E13).
 TEST(PlaneWaveEdges, AddTheLessToAScatteredFieldTheFinerTheCells) {
   for (const char* kind : {"plane:0", "plane:30"}) {
+    if (!std::getenv("SLIPWAVE_LONG") && std::string(kind) == "plane:0") continue;
     double before = 0;
     for (const double h : {40., 20., 10.}) {
       const double error = relative_error(scattered(kind, h, 0), scattered(kind, h, 800));
