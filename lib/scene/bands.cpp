@@ -115,8 +115,9 @@ double share_of_interface(const Medium<D>& medium, std::int64_t face) {
 }
 
 /// What rows `beside` a face between bands must be, counted from it: each is all solid, all fluid or all
-/// void, since columns that are taken together must carry the same waves; and no strong interface lies
-/// between them but on the face itself: order 7 a few rows below one fed waves with energy (theory/bands.md).
+/// void, since columns that are taken together must carry the same waves. Where no strong interface lies on
+/// all of the face, none lies between them either: rows of another height a few rows below one fed waves with
+/// energy (theory/bands.md).
 template <int D>
 void check_rows_beside(const Medium<D>& medium, std::int64_t face, const RowsBeside& beside) {
   const auto& grid = medium.grid();
@@ -318,7 +319,7 @@ Model<D> model_of_rows(const InCells<D>& own, const std::vector<RowOf<D>>& rows,
   Grid<D> grid = whole.grid();
   for (int axis = 0; axis < D - 1; ++axis) grid.shape[axis] = columns[axis];
   grid.shape[D - 1] = std::int64_t(rows.size());
-  grid.origin_m[D - 1] = depth_of_face(rows.front().from->grid(), rows.front().row);
+  grid.origin_m[D - 1] = rows.front().top_m;
   grid.rows = std::make_shared<const RowDepths<D>>(depths_of(grid, rows));
   const RowsOfFields<D> rows_of(grid, rows);
   Model<D> model;
@@ -529,6 +530,7 @@ ChosenBands bands_for(const Scene<D>& scene) {
     for (int ratio = std::min(widest_step_of_bands, int(room)); ratio >= 2; --ratio) {
       if (grid.rows && !grid.rows->row_is_level(row)) break;
       const Band band{depth_of_face(grid, row), above.spacing_m * ratio};
+      if (ratio > widest_step_in_rock && share_of_interface(scene.model.medium, row) < 1) continue;
       if (!fits(band.from_m, above.spacing_m, {-beside, 0}) ||
           !fits(band.from_m, band.spacing_m, {0, beside}))
         continue;
