@@ -331,14 +331,14 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
   report.text("cells per shortest wavelength", cells_text(plan));
   const auto direct = direct_text(plan.direct.p, plan.direct.s);
   for (const auto& band : shown_bands(plan)) report.text("band", band);
-  if (plan.bands.empty())
+  if (plan.bands.empty()) {
     report.text("direct waves", direct.empty() ? "none arrives before the traces end"
                                                : direct + " by dispersion, as derived (E16)");
-  if (plan.bands.empty())
     report.text("not in it",
                 "reflections, waves along interfaces, edges, fractures: --plan --measure measures all of it "
                 "in about " +
                     shown(plan.measuring_seconds, 2) + " s");
+  }
   const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
@@ -355,8 +355,10 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
 template <int D>
 Report report_of(const Plan<D>& plan) {
   Report report;
-  if (plan.bands.empty()) report.text("grid", shown(plan.computed) + ", absorbing zones included");
-  if (!plan.bands.empty()) report.texts("band", shown_bands(plan));
+  if (plan.bands.empty())
+    report.text("grid", shown(plan.computed) + ", absorbing zones included");
+  else
+    report.texts("band", shown_bands(plan));
   report.count("steps", plan.steps);
   report.number("time step", plan.time_step_s, "s");
   report.number("Courant number", plan.courant, "");
