@@ -2,6 +2,9 @@
 #include "solver/sweep/interface_stencils.hpp"
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "solver/sweep/stencils.hpp"
 
@@ -50,15 +53,29 @@ void mark_these(const std::vector<std::int64_t>& cells, std::int64_t first,
     marks[std::size_t(*cell - first)] = 1;
 }
 
-/// A pair as extended() reads it.
+/// Values of cells that follow each other in a row; no wider than the smallest instruction set has them.
+using FloatLanes = float __attribute__((vector_size(16)));
+using DoubleLanes = double __attribute__((vector_size(16)));
 template <class Real>
+using Lanes = std::conditional_t<std::is_same_v<Real, float>, FloatLanes, DoubleLanes>;
+template <class Real>
+constexpr int lane_count = 16 / sizeof(Real);
+template <class Value, class Real>
+Value value_at(const Real* from) {
+  Value value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+/// A pair as extended() reads it: of a cell, or of Lanes of cells whose stencils are alike.
+template <class Real, class Value = Real>
 struct ExtendedPair {
-  using At = MotionAt<Real>;
-  static constexpr bool splits = true;
+  using At = MotionAt<Value>;
+  static constexpr bool splits = std::is_same_v<Value, Real>;
   PairOfLine<Real> of;
 
   At at(std::int64_t offset) const {
-    const Real v = of.v[offset * of.stride], s = of.s[offset * of.stride];
+    const auto v = value_at<Value>(of.v + offset * of.stride), s = value_at<Value>(of.s + offset * of.stride);
     if (!of.half_j) return {v, s};
     return {v, (of.half_j[offset * of.j_stride] + of.half_j[offset * of.j_stride + 1]) * s};
   }
@@ -83,12 +100,15 @@ struct ExtendedPair {
     if (side.slot < 0) {
       const auto& surface = of.corrections.beside_void[ghost.below ? 0 : 1];
       const auto n = of_void(side.slot);
-      at.v += cells * (surface.bend ? surface.v[n] + surface.bend[n] : surface.v[n]);
-      at.t += of.scale * surface.s[n];
+      auto v = value_at<Value>(surface.v + n);
+      if (surface.bend) v += value_at<Value>(surface.bend + n);
+      at.v += cells * v;
+      at.t += of.scale * value_at<Value>(surface.s + n);
       return;
     }
-    at.v += cells * of.corrections.v[side.slot];
-    at.t += (ghost.below ? 2 : -2) * (1 - Real(side.weld)) * of.scale * of.corrections.s[side.slot];
+    at.v += cells * value_at<Value>(of.corrections.v + side.slot);
+    at.t += (ghost.below ? 2 : -2) * (1 - Real(side.weld)) * of.scale *
+            value_at<Value>(of.corrections.s + side.slot);
   }
   /// The extension beyond a split face (S36) from the mirror image.
   template <class Side>
@@ -107,6 +127,51 @@ struct ExtendedPair {
             welded + spring * (image - welded)};
   }
 };
+
+/// The slot of the cell behind that of `slot` in a row, where slots follow each other as cells do.
+std::int32_t next_slot(std::int32_t slot) {
+  if (slot == no_slot) return no_slot;
+  return slot < 0 ? slot - 1 : slot + 1;
+}
+bool are_alike(const InterfaceStencil& one, const InterfaceStencil& next) {
+  const auto alike = [](const StencilSide<1, float>& a, const StencilSide<1, float>& b) {
+    return a.cells == b.cells && a.beyond == b.beyond && a.law() == b.law() && a.weld == b.weld &&
+           a.law() != Extension::split && b.slot == next_slot(a.slot);
+  };
+  return next.x == one.x + 1 && one.reach == next.reach && one.reach != not_carried &&
+         alike(one.low, next.low) && alike(one.high, next.high);
+}
+/// Tells the cells of a line, ascending, how many from each on are alike.
+void count_alike(InterfaceStencil* begin, InterfaceStencil* end) {
+  for (; end - begin > 1; --end)
+    if (are_alike(end[-2], end[-1]) && end[-1].alike < std::numeric_limits<std::int16_t>::max())
+      end[-2].alike = std::int16_t(end[-1].alike + 1);
+}
+
+/// Cells of a row whose stencils, of the reach of this order, are alike: `cells` of them, whole Lanes. All
+/// pointers begin with the first.
+template <int Order, class Real>
+void correct_alike(const InterfaceStencil& stencil, int cells, const PairOfLine<Real>& pair,
+                   const Real* impedance, const Real* b, Real sign, Real* up, Real* down) {
+  constexpr int reach = reach_of(Order), places = 2 * reach + 1, lanes = lane_count<Real>;
+  auto moved = stencil;
+  ExtendedPair<Real, Lanes<Real>> own{pair};
+  for (int i = 0; i < cells; i += lanes) {
+    const auto at = extended_about<reach>(moved, own);
+    Real v[places * lanes], s[places * lanes];
+    for (int place = 0; place < places; ++place) {
+      std::memcpy(v + place * lanes, &at[std::size_t(place)].v, sizeof(Lanes<Real>));
+      std::memcpy(s + place * lanes, &at[std::size_t(place)].t, sizeof(Lanes<Real>));
+    }
+    for (int lane = 0; lane < lanes; ++lane)
+      reconstruct_cell<Order>(
+          v + reach * lanes + lane, s + reach * lanes + lane, lanes, sign * impedance[i + lane],
+          sign * pair.scale * (impedance[i + lane] * b[i + lane]), up[i + lane], down[i + lane]);
+    own.of.v += lanes, own.of.s += lanes;
+    for (auto* side : {&moved.low, &moved.high})
+      for (int lane = 0; lane < lanes; ++lane) side->slot = next_slot(side->slot);
+  }
+}
 
 }  // namespace
 
@@ -136,6 +201,8 @@ InterfaceStencils::InterfaceStencils(const StencilSearch<D>& of) : wave_(of.wave
       if (found) list_.cells.push_back(*found);
     }
     list_.end_line();
+    auto* const cells = list_.cells.data();
+    count_alike(cells + list_.first[std::size_t(line)], cells + list_.cells.size());
   }
 }
 
@@ -161,6 +228,15 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
     }
     ExtendedPair<Real> own{pair};
     own.of.v += i, own.of.s += i;
+    constexpr int lanes = lane_count<Real>;
+    const auto alike = int(std::min<std::int64_t>(cell.alike, columns.last - cell.x)) / lanes * lanes;
+    if (alike > 0 && !metric) {
+      at_order_reaching(std::min<int>(cell.reach, reach_of(order)), [&]<int Order>() {
+        correct_alike<Order>(cell, alike, own.of, impedance + i, material.b + i, sign, up + i, down + i);
+      });
+      n += alike - 1;
+      continue;
+    }
     if (metric) own.of.half_j = metric->half_x + i, own.of.j_stride = metric->stride;
     at_order_reaching(std::min<int>(cell.reach, reach_of(order)), [&]<int Order>() {
       constexpr int reach = reach_of(Order);

@@ -86,6 +86,8 @@ template <class Side>
 struct Stencil {
   std::int32_t x;     // the cell's column
   std::int8_t reach;  // of the reconstruction used here, not_carried where the wave is not carried
+  /// Cells from this one on in the row whose stencils are this one: their slots follow each other.
+  std::int16_t alike = 1;
   Side low{}, high{};
 };
 /// The stencil of one pair.

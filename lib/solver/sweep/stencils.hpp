@@ -192,7 +192,7 @@ std::optional<Stencil<Side>> find_stencil(const StencilSearch<D, Waves>& of, con
     within = std::min(within, reach_beside_tilted(walks[std::size_t(n)], reach));
   }
   within = of.bounds.at(of.impedances[0]->grid().flat(at), within);
-  if (inside) return Stencil<Side>{std::int32_t(at[0]), std::int8_t(within), sides[0].side, sides[1].side};
+  if (inside) return Stencil<Side>{std::int32_t(at[0]), std::int8_t(within), 1, sides[0].side, sides[1].side};
   if (within == reach) return {};
   return whole_stencil<Stencil<Side>>(at[0], within, reach);
 }
@@ -204,12 +204,19 @@ struct Ghost {
   int across;  // where it lies, or the last place before it that may be read
 };
 
+template <class Side, class Line>
+typename Line::At extended_beyond(const Stencil<Side>& stencil, const Line& line, int offset, bool below);
 /// The motion at an offset from a cell, extended beyond the ends of its stencil ((E10), (E11), (F13)). A line
 /// gives what is at a cell, and what its laws make of a mirror image.
 template <class Side, class Line>
-typename Line::At extended(const Stencil<Side>& stencil, const Line& line, int offset) {
+[[gnu::always_inline]] inline typename Line::At extended(const Stencil<Side>& stencil, const Line& line, int offset) {
   const bool below = offset < -stencil.low.cells;
-  if (!below && offset <= stencil.high.cells) return line.at(offset);
+  return below || offset > stencil.high.cells ? extended_beyond(stencil, line, offset, below)
+                                              : line.at(offset);
+}
+/// The same of an offset beyond an end, on the side of low coordinates or the other.
+template <class Side, class Line>
+typename Line::At extended_beyond(const Stencil<Side>& stencil, const Line& line, int offset, bool below) {
   const auto& side = below ? stencil.low : stencil.high;
   const int cells{side.cells};
   if (side.law() == Extension::constant) return line.at(below ? -cells : cells);
