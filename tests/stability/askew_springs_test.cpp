@@ -184,7 +184,7 @@ Lab<double>::Setup soft_blocks(unsigned draw, double softness) {
 // Proves (S25).
 TEST(SoftBlocks, LoseMotionAtAllOrders) {
   const ThreadLimit one_thread(1);
-  for (unsigned draw = 1; draw <= (long_form() ? 16U : 3U); ++draw)
+  for (unsigned draw = 1; draw <= (long_form() ? 16U : 2U); ++draw)
     for (const double softness : {100., 1e4})
       for (const int order : long_form() ? std::vector<int>{5, 7, 9, 11} : std::vector<int>{11}) {
         auto setup = soft_blocks(draw, softness);

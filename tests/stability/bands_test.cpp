@@ -32,10 +32,8 @@ Material rock_of(double vp, double vs, double rho) {
 
 /// A rock whose speeds and density are up to 1.2 times as large, by draws of the place.
 Material varied(const Material& rock, int i, int k) {
-  std::seed_seq place{i, k, 7};
-  std::mt19937 engine(place);
-  const auto factor = [&] { return std::pow(1.2, std::uniform_real_distribution<double>(0, 1)(engine)); };
-  return rock_of(rock.vp * factor(), rock.vs * factor(), rock.rho * factor());
+  const auto [vp, vs, rho] = draws_of(i, k, 7);
+  return rock_of(rock.vp * std::pow(1.2, vp), rock.vs * std::pow(1.2, vs), rock.rho * std::pow(1.2, rho));
 }
 
 std::vector<BandedGround> banded_grounds() {

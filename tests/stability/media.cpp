@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <stdexcept>
+#include <tuple>
 
 #include "solver/sweep/interface_stencils.hpp"
 
@@ -24,25 +25,16 @@ using Filling = std::function<Cell(int i, int k, int n, const std::function<doub
 
 Cell solid_of(double f, double g) { return {1500 + 4500 * f, 500 + 2000 * f, 1500 + 1500 * g}; }
 
-/// Draws that are the same for all cells of a block.
-std::array<double, 2> draws_of(int column, int row, unsigned seed) {
-  std::seed_seq mixed{unsigned(column), unsigned(row), seed};
-  std::mt19937 engine(mixed);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  const double first = uniform(engine);
-  return {first, uniform(engine)};
-}
-
 Filling blocks(int size) {
   return [size](int i, int k, int, const auto&) {
-    const auto [f, g] = draws_of(i / size, k / size, 7);
+    const auto [f, g, unused] = draws_of(i / size, k / size, 7);
     return solid_of(f, g);
   };
 }
 
 Filling layers(int size) {
   return [size](int, int k, int, const auto&) {
-    const auto [f, g] = draws_of(0, k / size, 11);
+    const auto [f, g, unused] = draws_of(0, k / size, 11);
     return solid_of(f, g);
   };
 }
@@ -136,6 +128,18 @@ const std::vector<std::string>& medium_names() {
     return all;
   }();
   return names;
+}
+
+std::array<double, 3> draws_of(int column, int row, unsigned seed) {
+  // Beginning an engine takes longer than a cell does in a step.
+  static std::map<std::tuple<int, int, unsigned>, std::array<double, 3>> known;
+  const auto [found, is_new] = known.try_emplace({column, row, seed});
+  if (is_new) {
+    std::seed_seq mixed{unsigned(column), unsigned(row), seed};
+    std::mt19937 engine(mixed);
+    for (double& draw : found->second) draw = std::uniform_real_distribution<double>(0, 1)(engine);
+  }
+  return found->second;
 }
 
 Medium<2> rock(int nx, int nz) {

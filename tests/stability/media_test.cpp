@@ -64,7 +64,7 @@ TEST(Energy, NeverRisesInTenThousandSteps) {
   for (const std::string medium : {"WaterOverCurvedRock", "RandomSolids"})
     for (const int order : {5, 7, 11}) {
       SCOPED_TRACE(medium + " order " + std::to_string(order));
-      expect_no_growth_in<float>(medium, order, EdgeLaw::free, {32, 10000});
+      expect_no_growth_in<float>(medium, order, EdgeLaw::free, {long_form() ? 32 : 20, 10000});
     }
 }
 
@@ -76,6 +76,7 @@ TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
   for (const int order : {3, 5, 7, 9, 11})
     for (const bool below_air : {false, true})
       for (const double cfl : {0.9, 1.}) {
+        if (!long_form() && (order / 2 + below_air + (cfl == 1)) % 2 != 0) continue;
         SCOPED_TRACE("order " + std::to_string(order) + " cfl " + std::to_string(cfl));
         Lab<double>::Setup setup;
         setup.medium = below_air ? medium_named("AirOverSteel", 20) : rock(16, 20);
@@ -117,9 +118,10 @@ TEST(Energy, OfHighOrdersAtInterfacesAndContrastsFallsInTheLongRun) {
 
 TEST(Energy, NeverRisesAtAnyCourantNumber) {
   const ThreadLimit one_thread(1);
+  std::size_t turn = 0;
   for (const double cfl : {0.1, 0.3, 0.5, 0.7, 0.9})
     for (const std::string medium : {"WaterOverCurvedRock", "RandomAirAndSteel", "RandomSolids"})
-      for (const int order : {3, 5, 7, 9, 11}) {
+      for (const int order : share_of(std::vector{3, 5, 7, 9, 11}, turn++ % 3)) {
         SCOPED_TRACE(medium + " order " + std::to_string(order) + " cfl " + std::to_string(cfl));
         Lab<double>::Setup setup;
         setup.medium = medium_named(medium, 24);
