@@ -9,15 +9,14 @@ namespace {
 class ShotByRanks : public Shell {
  protected:
   void SetUp() override {
-    if (launcher.empty()) GTEST_SKIP() << "sw-shoot was built without MPI";
+    if (on_ranks(1).empty()) GTEST_SKIP() << "sw-shoot was built without MPI";
     done(
         "sw-layers --size 800x900 --step 5 --layer 0:1500:0:1000 --layer 100:3000:1600:2200 | "
         "sw-fracture - --box 300:500,200:700 --dip 30 --friction 0.3 --viscosity 0.01 --name cracks -o m.nc");
   }
   /// What the launcher itself says is not the tool's.
-  std::string line(int ranks, const std::string& arguments) const {
-    return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 " +
-           launcher + " -n " + std::to_string(ranks) + " sw-shoot " + arguments;
+  static std::string line(int ranks, const std::string& arguments) {
+    return on_ranks(ranks) + "sw-shoot " + arguments;
   }
   /// Expects so many ranks to write the file that one process does.
   void expect_same_traces(int ranks, const std::string& arguments) {
@@ -36,13 +35,10 @@ class ShotByRanks : public Shell {
     }
     return lines;
   }
-  static const std::string launcher;
   const std::string shots =
       "m.nc --source 390,310 --source 200,50 --source 600,600 --wavelet ricker:25 --time 0.3 "
       "--receivers 0:800:20,10 --receivers 395,20 ";
 };
-
-const std::string ShotByRanks::launcher = SLIPWAVE_MPIRUN;
 
 }  // namespace
 

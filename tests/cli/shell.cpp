@@ -47,6 +47,15 @@ Shell::~Shell() {
   fs::remove_all(fs::path(directory_).parent_path(), ignored);
 }
 
+std::string Shell::on_ranks(int count) {
+  const std::string launcher = SLIPWAVE_MPIRUN;
+  if (launcher.empty()) return {};
+  // Where a process fails, Open MPI would give the others a second to end by themselves.
+  return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+         "OMPI_MCA_odls_base_sigkill_timeout=0 " +
+         launcher + " -n " + std::to_string(count) + ' ';
+}
+
 Ran Shell::run(const std::string& line) const {
   const std::string beside = fs::path(directory_).parent_path().string();
   const std::string out = beside + "/stdout", err = beside + "/stderr";

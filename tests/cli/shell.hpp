@@ -27,6 +27,9 @@ class Shell : public ::testing::Test {
   /// Runs and expects this exit code and exactly this line on stderr.
   void expect_refused(const std::string& line, int code, const std::string& message) const;
 
+  /// What a command begins with to be so many processes; nothing without MPI.
+  static std::string on_ranks(int count);
+
   std::string path(const std::string& name) const { return directory_ + '/' + name; }
   bool exists(const std::string& name) const;
   std::string content(const std::string& name) const;

@@ -8,7 +8,7 @@ shift
 command -v dpkg-shlibdeps >/dev/null || { echo 'there is no dpkg-shlibdeps'; exit 77; }
 # shellcheck source=tests/house/lib.sh
 . "$(dirname -- "$0")/lib.sh"
-(cd "$build" && umask 077 && cpack -G DEB -B "$work/packages") >"$work/said" 2>&1 ||
+(cd "$build" && umask 077 && cpack -G DEB -D CPACK_DEBIAN_COMPRESSION_TYPE=none -B "$work/packages") >"$work/said" 2>&1 ||
   { cat "$work/said"; echo 'cpack failed'; exit 1; }
 # The recipe of a container makes them by the same command, of names that cpack gives.
 recipe=$(dirname -- "$0")/../../docs/container/Dockerfile

@@ -184,13 +184,10 @@ TEST_F(Temperature, IsCutWithTheSubdomainsOfRanks) {
 }
 
 TEST_F(Temperature, ComesThroughRanksThatShareAShot) {
-  const std::string launcher = SLIPWAVE_MPIRUN;
-  if (launcher.empty()) GTEST_SKIP() << "sw-shoot was built without MPI";
+  if (on_ranks(2).empty()) GTEST_SKIP() << "sw-shoot was built without MPI";
   done(import + "--resample 1.25 -o fine.nc");
   done("sw-shoot fine.nc" + shot + "alone.sgy");
-  const auto ran =
-      run("OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 " +
-          launcher + " -n 2 sw-shoot fine.nc --ranks-per-shot 2" + shot + "together.sgy");
+  const auto ran = run(on_ranks(2) + "sw-shoot fine.nc --ranks-per-shot 2" + shot + "together.sgy");
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(done("cmp <(tail -c +3601 alone.sgy) <(tail -c +3601 together.sgy)"), "");
 }

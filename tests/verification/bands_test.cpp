@@ -73,12 +73,12 @@ TEST(Bands, ReadAndMovePointsOnAndBesideAFaceOnce) {
   constexpr double bound = 0.1;
   for (const double at : {30., 29.4, 31.}) {
     auto stack = soft_ground();
-    stack.receivers = line_at(at, 200), stack.duration_s = 0.4;
+    stack.receivers = line_at(at, 200), stack.duration_s = 0.3;
     EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), bound) << at;
   }
   for (const double at : {29.4, 31.}) {
     auto stack = soft_ground();
-    stack.source_b = at, stack.duration_s = 0.4;
+    stack.source_b = at, stack.duration_s = 0.3;
     EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), bound) << at;
   }
 }
@@ -137,8 +137,7 @@ TEST(Bands, ReflectNextToNothingInOneRock) {
   StackScene stack{"one rock", {{3000, 1700, 2200}}};
   stack.peak_hz = 20, stack.spacing_m = 2, stack.order = 7, stack.duration_s = 0.6, stack.margin_m = 200;
   for (double a = 60; a <= 600; a += 60) stack.receivers.push_back({a, -40});
-  for (const auto& force :
-       {std::optional<Point<2>>(), std::optional<Point<2>>({0, 1}), std::optional<Point<2>>({1, 0})}) {
+  for (const auto& force : {std::optional<Point<2>>(), std::optional<Point<2>>({0.6, 0.8})}) {
     stack.force = force;
     const auto scene = stack.scene();
     const double face_m = 4 * std::round((stack.place({0, 0})[1] + 88) / 4);
