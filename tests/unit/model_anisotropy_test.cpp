@@ -353,16 +353,16 @@ TEST(StiffnessInSpace, IsThatOfThomsenAndTsvankin) {
 TEST(PhaseSpeedsInSpace, AreFastestInSomeDirection) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(-0.3, 0.6);
-  for (int n = 0; n < 20; ++n) {
+  for (int n = 0; n < 12; ++n) {
     Material rock{3000, 1600, 2300, uniform(engine), uniform(engine), 0, uniform(engine)};
     if (n % 2) rock.orthorhombic = Orthorhombic{uniform(engine), uniform(engine), 0.3 * uniform(engine), 0.1};
     if (fault_of_anisotropy(rock, true)) continue;
     rock.tilt = 30, rock.azimuth = 50;
     const auto stiffness = elasticity_of<3>(rock);
     double fastest = 0;
-    for (int ring = 0; ring <= 180; ++ring)
-      for (int around = 0; around < 360; ++around) {
-        const double t = ring * std::numbers::pi / 360, a = around * std::numbers::pi / 180;
+    for (int ring = 0; ring <= 90; ++ring)
+      for (int around = 0; around < 180; ++around) {
+        const double t = ring * std::numbers::pi / 180, a = around * std::numbers::pi / 90;
         const Point<3> direction = {std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)};
         fastest = std::max(fastest, phase_speeds<3>(stiffness, rock.rho, direction)[0]);
       }
