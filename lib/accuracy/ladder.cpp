@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "model/model_in_cells.hpp"
+#include "scene/bands.hpp"
 
 namespace slipwave {
 namespace {
@@ -68,11 +69,14 @@ Numerics numerics_of(const AccuracySetting& setting, Numerics numerics) {
 
 template <int D>
 std::string name_of(const AccuracySetting& setting, const Scene<D>& scene) {
+  const auto& bands = scene.numerics.bands;
+  const std::string cells = bands.empty()
+                                ? shown(setting.spacing_m, 4) + " m"
+                                : shown(resized(bands, setting.spacing_m / scene.model.grid().spacing_m), 4);
   std::string name =
       "order " + std::to_string(setting.order) +
       (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
-      (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl, 3) + ", " +
-      shown(setting.spacing_m, 4) + " m" +
+      (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl, 3) + ", " + cells +
       (setting.zone_cells == 0 ? "" : ", edges of " + std::to_string(setting.zone_cells) + " cells");
   if (scene.slips())
     name += setting.correction == SlipCorrection::first     ? ", first-order slip"

@@ -190,7 +190,9 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
   // The expensive one comes last: what cannot be run says so before.
   for (auto one = settings.rbegin(); one != settings.rend(); ++one) runs.run(*one);
   const auto derived = [&](const AccuracySetting& of) {
-    return runs.observed().response ? 0. : runs.direct().together(runs.discretisation_of(of));
+    // That of one size of cells says nothing of bands.
+    const bool known = !runs.observed().response && runs.scene().numerics.bands.empty();
+    return !known ? 0. : runs.direct().together(runs.discretisation_of(of));
   };
   Compared compared(runs);
   measured.beside_source = compared.left_out();
@@ -203,7 +205,9 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
     throw Error("the scene holds cells of one other size only, " + shown(coarsest.spacing_m, 4) +
                 " m: its error is measured by running it");
   // Where none of the sizes is its own, of second order is the best guess there is.
-  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2, runs.model().tops_cut_cells() ? 1 : 2);
+  // What faces between bands add falls more slowly than the rest, and hides behind it in larger cells.
+  const bool first_order = runs.model().tops_cut_cells() || !runs.scene().numerics.bands.empty();
+  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2, first_order ? 1 : 2);
   measured.order = of_cells.order;
   measured.by_cells = of_cells.error;
   measured.wrong = std::move(of_cells.wrong);

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/processor_time.hpp"
 #include "grid/locate.hpp"
+#include "scene/bands.hpp"
 #include "scene/empty_gather.hpp"
 #include "solver/simulation.hpp"
 
@@ -56,6 +57,8 @@ Scene<D> SceneRuns<D>::scene_of(const AccuracySetting& setting, Variation variat
   scene.numerics = numerics_of(setting, scene.numerics);
   if (!fitted && setting.spacing_m == scene.model.grid().spacing_m) return scene;
   scene.model = fitted ? model_.fitted(setting.spacing_m) : model_.of(setting.spacing_m);
+  scene.numerics.bands =
+      slipwave::resized(std::move(scene.numerics.bands), setting.spacing_m / scene_.model.grid().spacing_m);
   if (in_cells_.place_again) in_cells_.place_again(scene);
   check(scene);
   return scene;
@@ -111,6 +114,9 @@ int SceneRuns<D>::zone_of(const AccuracySetting& setting) const {
   const auto& source = scene_.survey.sources[observed_.shots.front() - 1];
   const double own_m = scene_.model.grid().spacing_m;
   const int own = zone_cells(scene_, source);
+  // Bands have that many of the largest cells.
+  if (const auto& bands = scene_.numerics.bands; !bands.empty())
+    return int(std::ceil(own * largest_cell_m(bands) / own_m - 1e-9));
   // That of plane waves is a length.
   return point_injection(source) ? own : int(std::ceil(own * own_m / setting.spacing_m));
 }
@@ -121,6 +127,13 @@ std::optional<double> SceneRuns<D>::possible_m(double spacing_m) const {
   std::vector<double> whole;  // lengths that must be whole numbers of cells, in those of the scene
   for (int axis = 0; axis < D; ++axis)
     if (scene_.edges[axis][1] != EdgeLaw::absorbing) whole.push_back(double(grid.shape[std::size_t(axis)]));
+  const auto& bands = scene_.numerics.bands;
+  // Depths of faces between bands that are whole numbers of cells stay so; others are where rows follow them.
+  for (std::size_t n = 1; n < bands.size(); ++n)
+    for (const auto& band : {bands[n - 1], bands[n]}) {
+      const double cells = (bands[n].from_m - grid.origin_m[D - 1]) / band.spacing_m;
+      if (std::abs(cells - std::round(cells)) < 1e-6) whole.push_back(std::round(cells));
+    }
   if (whole.empty()) return spacing_m;
   const auto fits = [&](double cells) {
     return cells >= 1 && std::all_of(whole.begin(), whole.end(), [&](double length) {
@@ -155,6 +168,7 @@ std::optional<AccuracySetting> SceneRuns<D>::held(AccuracySetting setting, Place
       return std::nullopt;
   try {
     const auto scene = scene_of(setting);
+    if (!scene.numerics.bands.empty()) scenes_of_bands(scene);
     if (places == Places::in_the_same_matter && !stands_alike(scene)) return std::nullopt;
   } catch (const Error&) {
     return std::nullopt;

@@ -373,12 +373,6 @@ double time_step_of_bands(const std::vector<InCells<D>>& all) {
   return all.front().scene.numerics.cfl * step_s;
 }
 
-double largest_of_bands(const std::vector<Band>& bands) {
-  double largest = 0;
-  for (const auto& band : bands) largest = std::max(largest, band.spacing_m);
-  return largest;
-}
-
 /// By row, the slowest wave of that row and all below, m/s.
 template <int D>
 std::vector<double> slowest_below(const Medium<D>& medium) {
@@ -399,7 +393,7 @@ std::vector<double> slowest_below(const Medium<D>& medium) {
 template <int D>
 void check_bands(const Scene<D>& scene) {
   const auto& bands = scene.numerics.bands;
-  const double largest = largest_of_bands(bands);
+  const double largest = largest_cell_m(bands);
   for (std::size_t n = 0; n < bands.size(); ++n) {
     if (!whole_cells(largest, bands[n].spacing_m))
       refuse("cells of " + shown(bands[n].spacing_m) + " and of " + shown(largest) + " m",
@@ -442,11 +436,23 @@ std::vector<Band> parse_bands(const std::string& text) {
   return bands;
 }
 
-std::string shown(const std::vector<Band>& bands) {
+std::string shown(const std::vector<Band>& bands, int digits) {
   std::string text;
   for (const auto& band : bands)
-    text += (text.empty() ? "" : ", from z=" + shown(band.from_m) + " m on ") + shown(band.spacing_m) + " m";
+    text += (text.empty() ? "" : ", from z=" + shown(band.from_m) + " m on ") +
+            (digits > 0 ? shown(band.spacing_m, digits) : shown(band.spacing_m)) + " m";
   return text;
+}
+
+double largest_cell_m(const std::vector<Band>& bands) {
+  double largest = 0;
+  for (const auto& band : bands) largest = std::max(largest, band.spacing_m);
+  return largest;
+}
+
+std::vector<Band> resized(std::vector<Band> bands, double ratio) {
+  for (auto& band : bands) band.spacing_m *= ratio;
+  return bands;
 }
 
 template <int D>
@@ -455,7 +461,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   auto all = in_cells_of_bands(scene);
   const auto whole = of_whole(all);
   const auto beside = rows_beside_band(scene.numerics.order);
-  const double step_s = time_step_of_bands(all), largest = largest_of_bands(scene.numerics.bands);
+  const double step_s = time_step_of_bands(all), largest = largest_cell_m(scene.numerics.bands);
   const auto zone = zone_of_widest(scene, largest);
   const auto widest = columns_of_widest(scene, largest);
   std::vector<Scene<D>> scenes;
@@ -544,7 +550,7 @@ ChosenBands bands_for(const Scene<D>& scene) {
   const double whole = cost_of_bands(scene, {{scene, 0, grid.shape[D - 1]}});
   for (; bands.size() > 1; bands.pop_back()) try {
       check_bands(banded);
-      columns_of_widest(banded, largest_of_bands(bands));
+      columns_of_widest(banded, largest_cell_m(bands));
       const double share = cost_of_bands(scene, in_cells_of_bands(banded)) / whole;
       if (share <= 0.5 && share < best.share) best = {bands, share};
     } catch (const Error&) {  // the scene does not go with these

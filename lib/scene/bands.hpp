@@ -24,8 +24,14 @@ constexpr std::int64_t rows_beside_band(int order) { return std::int64_t(3) * ne
 /// for "none" and "auto". Throws a usage Error.
 std::vector<Band> parse_bands(const std::string& text);
 
-/// "0.6 m, from z=30 m on 2.4 m": the cells of bands as messages show them.
-std::string shown(const std::vector<Band>& bands);
+/// "0.6 m, from z=30 m on 2.4 m": the cells of bands as messages show them, to so many digits or all.
+std::string shown(const std::vector<Band>& bands, int digits = 0);
+
+/// The largest cells of bands, m; 0 without bands.
+double largest_cell_m(const std::vector<Band>& bands);
+
+/// The same bands in cells some `ratio` times as large.
+std::vector<Band> resized(std::vector<Band> bands, double ratio);
 
 /// The bands that a scene calls for, at the same cells per wavelength everywhere: wherever all waves below
 /// are twice as fast or more, and rows of both cells begin, cells become 2 to 4 times as large. None where

@@ -190,10 +190,6 @@ void check_measuring(const ShootingOptions& options) {
   const auto usage = [](const std::string& sentence) { throw Error(sentence, ErrorKind::usage); };
   if (options.error_of != "traces" && options.error_of != "response")
     usage("--of: found '" + options.error_of + "', expected traces or response");
-  if (options.scene.bands != "none" && measures(options))
-    usage(
-        "found --bands with --error, --measure or --error-gather, expected one of them: errors are measured "
-        "in cells of one size");
   if (options.wanted_error) check_wanted_error(*options.wanted_error);
   if (options.wanted_error && options.plan)
     usage(
@@ -230,6 +226,8 @@ void shoot_measured(const Scene<D>& scene, const ShootingOptions& options, const
     out.commit();
   }
   const auto chosen = runs.scene_of(measured.setting);
+  if (options.wanted_error && !chosen.numerics.bands.empty())
+    for (const auto& sentence : warnings(chosen)) messages.warn(sentence);
   SurveyRun<D> survey(chosen, output, own, messages, nullptr);
   // Snapshots and diaries want the shot again.
   const bool again = !output.snapshots.empty() || chosen.slip_diary;

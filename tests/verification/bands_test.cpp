@@ -9,6 +9,7 @@
 #include "memory_archive.hpp"
 #include "model/fracture.hpp"
 #include "parallel/threads.hpp"
+#include "planning/measured_error.hpp"
 #include "solver/banded_shot.hpp"
 #include "solver/simulation.hpp"
 #include "stack_scene.hpp"
@@ -61,6 +62,23 @@ Gather in_bands(Scene<2> scene, std::vector<Band> bands) {
 TEST(Bands, OfSoftGroundOnRockGiveItsExactTraces) {
   const auto stack = soft_ground();
   EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), 0.01);
+}
+
+/// All bands in cells of other sizes tell the error of these.
+TEST(Bands, HaveAnErrorThatIsMeasured) {
+  auto stack = soft_ground();
+  stack.duration_s = 0.4;
+  auto scene = stack.scene();
+  scene.numerics.bands = {{0, 0.75}, {30, 3}};
+  SceneRuns<2> runs(scene, {{1}});
+  const auto measured = measured_error(runs, setting_of(scene));
+  const auto wider = runs.scene_of(other_sizes(runs, measured.setting).front()).numerics.bands;
+  EXPECT_GT(wider[0].spacing_m, 0.75);
+  EXPECT_NEAR(wider[1].spacing_m, 4 * wider[0].spacing_m, 1e-9);
+  EXPECT_EQ(wider[1].from_m, 30);
+  const double found = difference(runs.run(measured.setting).recorded.front(), stack.exact().front());
+  EXPECT_GT(measured.error.whole, found);
+  EXPECT_LT(measured.error.whole, 4 * found);
 }
 
 TEST(Bands, OfMudBelowWaterGiveItsExactTraces) {
