@@ -43,8 +43,8 @@ SplitFaces<D, Real>::SplitFaces(const State<D, Real>& state, const Domain<D>& do
   work_.resize(faces_.size());
   if (std::any_of(faces_.begin(), faces_.end(), [](const Face& face) { return face.law.has_state(); }))
     paths_m_.assign(faces_.size(), 0);
-  for (std::size_t n = 0; n < faces_.size(); ++n)
-    for (const std::size_t pair : {0, 1}) slips_[n].stiffness[pair] = images_[pair][2 * n].stiffness;
+  // As a sweep leaves them at rest, to the last bit: sweeps pass over rock that no wave has reached.
+  for (std::size_t n = 0; n < faces_.size(); ++n) slips_[n].stiffness = solve(n, {}, 1).stiffness;
 }
 
 template <int D, class Real>
