@@ -489,7 +489,15 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
   if constexpr (D == 2) {
     march(
         D - 1, {}, needed, stage.fraction, tile.rings[std::size_t(stage.number)], worker,
-        [&](const IndexRange& rows_read) { return reached(stage.time, rows_read, {}, columns); }, correct,
+        [&](const IndexRange& rows_read) {
+          const auto swept = reached(stage.time, rows_read, {}, columns);
+          if (!swept.empty()) return swept;
+          // What corrects the first columns of the next stripe is due, too, and reads beyond them.
+          const auto next = reached(stage.time, rows_read, {}, {columns.last, columns.last + beside});
+          return next.empty() ? swept
+                              : IndexRange{std::max(columns.first, columns.last - beside), columns.last};
+        },
+        correct,
         [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, 0, swept, worker); });
   } else {
     const auto beyond = 2 * free_surface_reach;  // of corrections of lines beside these
