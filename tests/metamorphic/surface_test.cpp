@@ -119,27 +119,6 @@ Scene<2> stepped(unsigned seed, std::int64_t nx = 100) {
   return scene;
 }
 
-TEST(SameGround, InStepsDoesNotDependOnTheTiling) {
-  for (const int order : {3, 7})
-    for (const unsigned seed : seeds(1, 6)) {
-      auto scene = stepped(seed, 400);
-      scene.numerics.order = order;
-      scene.edges[0] = {EdgeLaw::free, EdgeLaw::free};
-      scene.recording.duration_s = 0.04;
-      scene.numerics.tiling.plain = true;
-      const auto plain = traces_of(scene);
-      for (const auto& tiling : {Tiling{0, 0}, Tiling{1, 16}, Tiling{2, 64, true}, Tiling{3, 112}})
-        for (const int threads : {1, 3}) {
-          const ThreadLimit limit(threads);
-          scene.numerics.tiling = tiling;
-          EXPECT_EQ(traces_of(scene), plain) << "order " << order << ", seed " << seed << ", " << tiling.steps
-                                             << " steps, " << tiling.stripe_cells << " cells";
-        }
-      scene.numerics.tiling = {1, 32};
-      EXPECT_EQ(all_samples(shared_out(scene, 2)), plain) << "on two ranks, seed " << seed;
-    }
-}
-
 TEST(SameGround, InStepsTurnedByARightAngleGivesTheSameTraces) {
   for (const unsigned seed : seeds()) {
     auto scene = stepped(seed);

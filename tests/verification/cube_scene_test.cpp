@@ -20,42 +20,6 @@ Scene<3> reef(const EdgeLaws<3>& edges, const char* mechanism) {
                   {Component::vx, Component::vy, Component::syz, Component::p}, 0.035, 0.001);
 }
 
-TEST(CubeTraces, DoNotDependOnTheTiling) {
-  struct Cut {
-    const char* name;
-    EdgeLaw sides;
-    int order, time_order;
-    const char* mechanism;
-  };
-  for (const auto& [name, sides, order, time_order, mechanism] :
-       {Cut{"PML", EdgeLaw::absorbing, 5, 2, "explosion"},
-        Cut{"free sides", EdgeLaw::free, 7, 2, "force:1,2,3"},
-        Cut{"mirror, order 4 in time", EdgeLaw::mirror, 3, 4, "moment:1,0,0,2,0,1"}}) {
-    SCOPED_TRACE(name);
-    auto edges = edges_all_3d(sides);
-    edges[2][0] = EdgeLaw::free;
-    auto scene = reef(edges, mechanism);
-    scene.numerics.order = order;
-    scene.numerics.time_order = time_order;
-    scene.numerics.zone_cells = 6;
-    scene.numerics.tiling = {1, 1 << 20, true};
-    const auto whole = [&] {
-      const ThreadLimit one(1);
-      return samples_of(shoot(scene, 1));
-    }();
-    double largest = 0;
-    for (const double sample : whole) largest = std::max(largest, std::abs(sample));
-    EXPECT_GT(largest, 0);
-    for (const auto& [tiling, threads] :
-         {std::pair(Tiling{0, 0}, 3), std::pair(Tiling{1, 7}, 1), std::pair(Tiling{3, 12, true}, 3)}) {
-      const ThreadLimit limit(threads);
-      scene.numerics.tiling = tiling;
-      EXPECT_TRUE(samples_of(shoot(scene, 1)) == whole)
-          << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
-    }
-  }
-}
-
 TEST(CubeTraces, DoNotDependOnWhoElseIsLooking) {
   auto edges = edges_all_3d(EdgeLaw::mirror);
   edges[2][0] = EdgeLaw::free;

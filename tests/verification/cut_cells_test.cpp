@@ -8,8 +8,6 @@
 #include "layer_in_tension.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
-#include "one_pause.hpp"
-#include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
 #include "solver/effect/linear_slip.hpp"
 
@@ -300,32 +298,6 @@ Scene<2> slab_of(const std::vector<SlipSystem<2>>& systems) {
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.recording = {{Component::vx, Component::vz}, 0.15, 0.001};
   return scene;
-}
-
-TEST(CutCells, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
-  SlipSystem<2> dry{normal_of_dip(50), 0.2, 300, 100}, across{normal_of_dip(-10), 0.3, 0, 50};
-  auto weak = dry, opens = dry, springs = dry;
-  weak.law = FrictionLaw::slip_weakening, weak.dynamic_friction = 0.05, weak.slip_distance_m = 1e-7;
-  opens.opens = true;
-  springs.law = FrictionLaw::none, springs.compliance = {1e-11, 3e-11, 0, 0, 1};
-  auto sliding = springs;
-  sliding.law = FrictionLaw::coulomb;
-  for (const auto& systems : std::vector<std::vector<SlipSystem<2>>>{
-           {dry}, {dry, across}, {weak}, {opens}, {springs}, {springs, springs}, {sliding}}) {
-    auto all = systems;
-    if (all.size() == 2 && all[0].normal == all[1].normal) all[1].normal = across.normal;
-    auto scene = slab_of(all);
-    scene.slip_diary = all[0].slides();
-    scene.snapshot_every_s = 0.05;
-    SCOPED_TRACE(all[0].compliance.gives() ? "springs" : "friction");
-    const auto alone = all_samples(shoot(scene, 1));
-    auto whole = scene;
-    whole.model.fracture_share = {};
-    EXPECT_GT(relative_error(alone, all_samples(shoot(whole, 1))), 1e-3);
-    EXPECT_TRUE(all_samples(shared_out(scene, 3)) == alone);
-    expect_same(scene);
-    EXPECT_TRUE(samples_in_pieces(scene) == alone);
-  }
 }
 
 TEST(CutCells, OfShareOneAreWholeCellsToTheBit) {

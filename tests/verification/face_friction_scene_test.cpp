@@ -5,64 +5,13 @@
 
 #include <limits>
 
-#include "continued.hpp"
-#include "lab.hpp"
 #include "model/fracture.hpp"
-#include "model/prestress.hpp"
 #include "model/resample.hpp"
-#include "model/single_fracture.hpp"
 #include "scene_of_faces.hpp"
 #include "slip_layer.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-struct Plane {
-  double friction = 0.5, cohesion_pa = 0, viscosity_s = 0;
-  bool opens = false;
-  double z_n = 0, z_t = 0;
-  std::string law = "coulomb";
-};
-
-void add(Model<2>& model, const Plane& of, std::vector<FractureTrace<2>> traces,
-         const std::string& prestress) {
-  SlipSystem<2> system{normal_between_tips(traces.front()), of.friction, of.viscosity_s, of.cohesion_pa,
-                       of.opens};
-  set_friction_law(system, of.law);
-  system.compliance = {of.z_n, of.z_t, 0, 0, of.viscosity_s > 0 ? 5. : 0};
-  add_single_fractures(model, {"faces", {system}, std::move(traces), true});
-  set_prestress(model, model.fracture_sets.size(), parse_prestress<2>(prestress));
-}
-
-/// Two rocks, with planes that stick and slide, open and shut, with springs and viscosity and without, cross,
-/// end between faces and lie on the interface, beside a cluster of planes.
-Scene<2> faulted() {
-  auto scene = two_rocks();
-  auto& model = scene.model;
-  model.fracture = Field<2, std::uint8_t>(model.grid());
-  for (std::int64_t k = 60; k < 70; ++k)
-    for (std::int64_t i = 10; i < 30; ++i) model.fracture({i, k}) = 1;
-  model.fracture_sets = {{"cluster", {{{0.6, 0.8}, 0.1, 2e3, 1e3}}}};
-  add(model, {}, {{{152, 300}, {301, 300}}, {{220, 141}, {220, 420}}}, "-2000,-3000,500");
-  add(model, {0.3, 100, 0, true}, {{{80, 500}, {390, 500}}}, "-1500,-1000,-200");
-  add(model, {0.2, 0, 5, true, 2e-9, 1e-9}, {{{330, 90}, {330, 700}}}, "-1000,-1000,0");
-  add(model, {0.4, 0, 20}, {{{100, 200}, {200, 200}}}, "-1000,-2000,-700");
-  add(model, {0.5, 50, 0, true, 0, 1e-10, "slip-weakening:0.1:2e-6"}, {{{430, 151}, {430, 599}}},
-      "-1000,-2000,200");
-  return scene;
-}
-
-// Proves (S43).
-TEST(FaceFriction, GivesTheBitsOfThePlainExecutorInTiles) { expect_same_in_tiles(faulted()); }
-
-// Proves (S43).
-TEST(FaceFriction, IsTheSameOnSeveralRanks) {
-  const auto scene = faulted();
-  expect_same_on_ranks(scene, all_samples(shoot(scene, 1)));
-}
-
-// Proves (S43).
-TEST(FaceFriction, ContinuesFromACheckpoint) { expect_to_continue(faulted()); }
 
 // Proves (S43).
 TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_precision(faulted()); }
@@ -70,8 +19,8 @@ TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_
 TEST(FaceFriction, KeepsItsPrestressInCellsOfAnotherSize) {
   Model<2> model;
   model.medium = uniform_medium(60, 60, 5, {4500, 2250, 2500});
-  add(model, {}, {{{51, 101}, {249, 101}}}, "-2000,-3000,500");
-  add(model, {0.5, 0, 0, true}, {{{150, 120}, {150, 280}}}, "-7000,-5000,100");
+  add_faces(model, {}, {{{51, 101}, {249, 101}}}, "-2000,-3000,500");
+  add_faces(model, {0.5, 0, 0, true}, {{{150, 120}, {150, 280}}}, "-7000,-5000,100");
   for (const double h : {2.5, 4., 10., 12.}) {
     const auto resized = resampled(model, h, true);
     check(resized);
@@ -128,7 +77,7 @@ TEST(FaceFriction, WithoutAnyIsACrackThatIsFreeAlongItself) {
   SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
   system.compliance.tangential_m_per_pa = std::numeric_limits<double>::infinity();
   add_single_fractures(free.model, {"free", {system}, {level}, true});
-  add(slippery.model, {0}, {level}, "none");
+  add_faces(slippery.model, {0}, {level}, "none");
   EXPECT_LT(change_between(slippery, free), 1e-5);
   EXPECT_GT(change_between(slippery, over_a_plane(5)), 0.1);
 }
@@ -139,7 +88,7 @@ TEST(FaceFriction, OfStrengthThatNoWaveReachesIsTheSpringAlone) {
   SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
   system.compliance = {1e-9, 2e-9, 0, 0, 0};
   add_single_fractures(spring.model, {"spring", {system}, {level}, true});
-  add(strong.model, {0, 1e12, 0, false, 1e-9, 2e-9}, {level}, "none");
+  add_faces(strong.model, {0, 1e12, 0, false, 1e-9, 2e-9}, {level}, "none");
   EXPECT_LT(change_between(strong, spring), 1e-5);
 }
 
@@ -147,7 +96,7 @@ TEST(FaceFriction, OfStrengthThatNoWaveReachesIsTheSpringAlone) {
 TEST(FaceFriction, OfStrengthThatNoWaveReachesIsRockThatIsWhole) {
   // Up to what sweeps of order 5 beside it leave, as beside a spring that is stiff as rock.
   auto strong = over_a_plane(5);
-  add(strong.model, {0, 1e12}, {level}, "none");
+  add_faces(strong.model, {0, 1e12}, {level}, "none");
   EXPECT_LT(change_between(strong, over_a_plane(5)), 1e-3);
 }
 
@@ -178,9 +127,9 @@ std::vector<double> sent_out(const Fault& of, double h, bool row) {
     set_friction_law(scene.model.fracture_sets[0].systems[0], of.law);
     set_prestress(scene.model, 1, parse_prestress<2>(prestress));
   } else {
-    // Of planes as far apart as add() has them.
-    add(scene.model, {friction, 0, of.drag * z * 5 / of.strength_pa, false, 0, 0, of.law},
-        {{{200, 300}, {400, 300}}}, prestress);
+    // Of planes as far apart as add_faces() has them.
+    add_faces(scene.model, {friction, 0, of.drag * z * 5 / of.strength_pa, false, 0, 0, of.law},
+              {{{200, 300}, {400, 300}}}, prestress);
   }
   auto whole = scene;
   whole.with_slip = false;
@@ -216,7 +165,7 @@ TEST(FaceFriction, ThatWeakensLiesBetweenStaticAndDynamicFriction) {
   const double most = largest_traction();
   const auto with = [&](const Plane& plane) {
     auto scene = over_a_plane(5);
-    add(scene.model, plane, {level}, shown(most));
+    add_faces(scene.model, plane, {level}, shown(most));
     return scene;
   };
   const auto falling = [](const std::string& dynamic, const std::string& distance_m) {

@@ -5,8 +5,6 @@
 
 #include "cube_shot.hpp"
 #include "lab.hpp"
-#include "plain_and_tiled.hpp"
-#include "shared_out.hpp"
 #include "solver/shot_simulation.hpp"
 
 // Models that are all fluid, whose state holds one stress and whose sweeps are of P waves alone.
@@ -95,19 +93,6 @@ TEST(Fluid, OfOneStressRecordsWhatAllStressesDo) {
     set_attenuation(scene);
   });
   expect_alike<3>(pool, [](auto&) {});
-}
-
-TEST(Fluid, GivesTheSameBitsInTilesAndOnRanks) {
-  for (const int order : {1, 5})
-    for (const EdgeLaw sides : {EdgeLaw::absorbing, EdgeLaw::mirror}) {
-      auto scene = sea();
-      scene.numerics.order = order;
-      scene.edges[0] = {sides, sides};
-      scene.snapshot_every_s = 0.05;
-      expect_same(scene);
-      EXPECT_TRUE(samples_of(shared_out(scene, 2)) == samples_of(shoot(scene, 1)));
-    }
-  expect_same(pool());
 }
 
 TEST(Fluid, NeedsLessMemoryThanRock) {

@@ -10,8 +10,6 @@
 #include <random>
 
 #include "lab.hpp"
-#include "one_pause.hpp"
-#include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
 #include "solver/effect/linear_slip.hpp"
 #include "solver/effect/slip.hpp"
@@ -305,38 +303,6 @@ TEST(SpringLimits, StiffSpringsLeaveFrictionAndEndlessFrictionLeavesSprings) {
       EXPECT_LT(difference(run(endless), run(springs)), 1e-5) << name_of(correction);
       EXPECT_GT(difference(run(friction), run(springs)), 0.01);
     }
-}
-
-/// All kinds at once, in a shot.
-std::vector<std::vector<SlipSystem<2>>> kinds() {
-  auto sliding = spring<2>({0.6, 0.8}, 0.2 / mu, 0.5 / mu, 1e-3 * mu, 1e-3 * mu);
-  sliding.law = FrictionLaw::coulomb, sliding.friction = 0.2, sliding.viscosity_s = 10;
-  auto across = spring<2>({-0.8, 0.6}, 0.1 / mu, 0);
-  across.law = FrictionLaw::slip_weakening, across.friction = 0.5, across.slip_distance_m = 1e-9;
-  auto block = sliding;
-  block.compliance.normal_dashpot_pa_s_m = block.compliance.tangential_dashpot_pa_s_m = 0;
-  return {{spring<2>({0.6, 0.8}, 0.4 / mu, 0.7 / mu)},
-          {spring<2>({0, 1}, 0.4 / mu, 0.7 / mu), spring<2>({0.8, 0.6}, 0, 2 / mu)},
-          {sliding},
-          {block, across},
-          {sliding},
-          {block, across},
-          // With stencils of their own (soft_cells()).
-          {spring<2>({0.6, 0.8}, 300 / mu, 300 / mu), spring<2>({1, 0}, 300 / mu, 300 / mu)}};
-}
-
-TEST(SpringScenes, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
-  int number = 0;
-  for (const auto& systems : kinds()) {
-    auto scene = scene_with(systems);
-    scene.numerics.correction = ++number > 4 ? SlipCorrection::centred : all_corrections[number % 3];
-    scene.numerics.time_order = number == 2 ? 4 : 2;
-    SCOPED_TRACE(number);
-    const auto alone = traces_of(scene);
-    EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone);
-    expect_same(scene);
-    EXPECT_TRUE(samples_in_pieces(scene) == alone);
-  }
 }
 
 // Proves (S25).

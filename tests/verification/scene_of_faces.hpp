@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "plain_and_tiled.hpp"
+#include "lab.hpp"
+#include "model/prestress.hpp"
+#include "model/single_fracture.hpp"
 #include "shared_out.hpp"
 
 namespace slipwave::solver {
@@ -28,21 +31,60 @@ inline Scene<2> two_rocks() {
   return scene;
 }
 
-/// Expects tiles to give what the plain executor does, with the diary of slip, and at order 1 in double
-/// precision.
-inline void expect_same_in_tiles(Scene<2> scene) {
-  scene.slip_diary = true;
-  expect_same(scene);
-  scene.numerics.order = 1;
-  scene.numerics.double_precision = true;
-  scene.recording.duration_s = 0.06;
-  expect_same(scene);
+/// Faces of springs without friction.
+inline void add_faces(Model<2>& model, double normal, double tangential,
+                      std::vector<FractureTrace<2>> traces) {
+  SlipSystem<2> system{normal_between_tips(traces.front()), 0, 0, 0, false, FrictionLaw::none};
+  system.compliance = {normal, tangential, 0, 0, 0};
+  add_single_fractures(model, {"faces", {system}, std::move(traces), true});
 }
 
-/// Expects two and three ranks to give those samples of one.
-inline void expect_same_on_ranks(const Scene<2>& scene, const std::vector<double>& alone) {
-  for (const int count : {2, 3})
-    EXPECT_TRUE(all_samples(shared_out(scene, count, 2)) == alone) << count << " ranks";
+/// Two rocks, with cracks that cross, end between faces and lie on the interface, beside a cluster of
+/// springs.
+inline Scene<2> cracked() {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  auto scene = two_rocks();
+  add_faces(scene.model, infinite, infinite, {{{152, 300}, {301, 300}}, {{220, 141}, {220, 420}}});
+  add_faces(scene.model, 0, infinite, {{{80, 500}, {390, 500}}});
+  add_faces(scene.model, 2e-9, 1e-9, {{{330, 90}, {330, 700}}, {{100, 200}, {200, 200}}});
+  return scene;
+}
+
+/// A plane with friction.
+struct Plane {
+  double friction = 0.5, cohesion_pa = 0, viscosity_s = 0;
+  bool opens = false;
+  double z_n = 0, z_t = 0;
+  std::string law = "coulomb";
+};
+
+/// Faces under stress there was before the waves.
+inline void add_faces(Model<2>& model, const Plane& of, std::vector<FractureTrace<2>> traces,
+                      const std::string& prestress) {
+  SlipSystem<2> system{normal_between_tips(traces.front()), of.friction, of.viscosity_s, of.cohesion_pa,
+                       of.opens};
+  set_friction_law(system, of.law);
+  system.compliance = {of.z_n, of.z_t, 0, 0, of.viscosity_s > 0 ? 5. : 0};
+  add_single_fractures(model, {"faces", {system}, std::move(traces), true});
+  set_prestress(model, model.fracture_sets.size(), parse_prestress<2>(prestress));
+}
+
+/// Two rocks, with planes that stick and slide, open and shut, with springs and viscosity and without, cross,
+/// end between faces and lie on the interface, beside a cluster of planes.
+inline Scene<2> faulted() {
+  auto scene = two_rocks();
+  auto& model = scene.model;
+  model.fracture = Field<2, std::uint8_t>(model.grid());
+  for (std::int64_t k = 60; k < 70; ++k)
+    for (std::int64_t i = 10; i < 30; ++i) model.fracture({i, k}) = 1;
+  model.fracture_sets = {{"cluster", {{{0.6, 0.8}, 0.1, 2e3, 1e3}}}};
+  add_faces(model, {}, {{{152, 300}, {301, 300}}, {{220, 141}, {220, 420}}}, "-2000,-3000,500");
+  add_faces(model, {0.3, 100, 0, true}, {{{80, 500}, {390, 500}}}, "-1500,-1000,-200");
+  add_faces(model, {0.2, 0, 5, true, 2e-9, 1e-9}, {{{330, 90}, {330, 700}}}, "-1000,-1000,0");
+  add_faces(model, {0.4, 0, 20}, {{{100, 200}, {200, 200}}}, "-1000,-2000,-700");
+  add_faces(model, {0.5, 50, 0, true, 0, 1e-10, "slip-weakening:0.1:2e-6"}, {{{430, 151}, {430, 599}}},
+            "-1000,-2000,200");
+  return scene;
 }
 
 /// Expects single precision to be as near to double precision as rounding leaves it.

@@ -9,6 +9,7 @@
 #include "lab.hpp"
 #include "line_fractures.hpp"
 #include "model/single_fracture.hpp"
+#include "scene_of_faces.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -200,6 +201,8 @@ TEST(SingleFracture, ErrsMoreTheSofterItIsAndLessInSmallCellsLong) {
     std::printf(" %%\n");
   }
 }
+
+TEST(FractureOnFaces, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_precision(cracked()); }
 
 }  // namespace
 }  // namespace slipwave::solver

@@ -47,58 +47,6 @@ std::vector<double> samples_of(const Gather& gather) {
   return all;
 }
 
-// Proves (E9).
-TEST(Traces, DoNotDependOnTheNumberOfThreads) {
-  auto scene = reef();
-  for (const char* mechanism : {"explosion", "force:1,2"}) {
-    scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
-    std::vector<std::vector<double>> found;
-    for (const int threads : {1, 2, 3}) {
-      const ThreadLimit limit(threads);
-      found.push_back(samples_of(shoot(scene, 1)));
-    }
-    EXPECT_EQ(found[0], found[1]);
-    EXPECT_EQ(found[0], found[2]);
-  }
-}
-
-// Proves (E9a), (E20).
-TEST(Traces, DoNotDependOnTheTiling) {
-  struct Cut {
-    const char* name;
-    EdgeLaw sides;
-    int order, time_order;
-    const char* mechanism;
-  };
-  for (const auto& [name, sides, order, time_order, mechanism] :
-       {Cut{"PML", EdgeLaw::absorbing, 5, 2, "explosion"},
-        Cut{"free sides", EdgeLaw::free, 7, 2, "force:1,2"}, Cut{"rigid", EdgeLaw::rigid, 1, 2, "explosion"},
-        Cut{"mirror, order 4 in time", EdgeLaw::mirror, 3, 4, "explosion"},
-        Cut{"free sides, order 4 in time", EdgeLaw::free, 5, 4, "explosion"}}) {
-    SCOPED_TRACE(name);
-    auto scene = reef(700, 150);
-    scene.survey.sources[0].position_m = {1010, 210};
-    scene.survey.receivers_m = {{790, 230}, {1102.5, 271.3}, {1362, 243}};
-    scene.edges[0] = {sides, sides};
-    scene.numerics.order = order;
-    scene.numerics.time_order = time_order;
-    scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
-    scene.recording.duration_s = 0.06;
-    scene.numerics.tiling = {1, 1 << 20, true};  // lines in one piece, all of them
-    const auto whole = [&] {
-      const ThreadLimit one(1);
-      return samples_of(shoot(scene, 1));
-    }();
-    for (const auto& tiling : {Tiling{0, 0}, Tiling{1, 16}, Tiling{2, 64, true}, Tiling{3, 112}})
-      for (const int threads : {1, 3}) {
-        const ThreadLimit limit(threads);
-        scene.numerics.tiling = tiling;
-        EXPECT_EQ(samples_of(shoot(scene, 1)), whole)
-            << tiling.steps << " steps, " << tiling.stripe_cells << " cells, " << threads << " threads";
-      }
-  }
-}
-
 // Proves (E20).
 TEST(Traces, ScaleWithTheSourceToTheLastBit) {
   // By powers of two: what the unit of the fields is chosen for must not be seen.
@@ -111,26 +59,6 @@ TEST(Traces, ScaleWithTheSourceToTheLastBit) {
     auto scaled = samples_of(shoot(scene, 1));
     for (auto& sample : scaled) sample = std::ldexp(sample, -power);
     EXPECT_EQ(scaled, found) << "2^" << power;
-  }
-}
-
-TEST(Traces, OfSlippingRockDoNotDependOnWhatIsLeftOutAtRest) {
-  auto scene = reef(300, 150);
-  auto& planes = scene.model.fracture_sets[0].systems[0];
-  planes.strength_pa = 0.01;
-  planes.opens = true;
-  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -0.02F));
-  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 0.005F);
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
-                                SlipCorrection::centred}) {
-    scene.numerics.correction = correction;
-    scene.numerics.tiling = {1, 1 << 20, true};
-    const auto everywhere = samples_of(shoot(scene, 1));
-    scene.numerics.tiling = {};
-    EXPECT_EQ(samples_of(shoot(scene, 1)), everywhere) << name_of(correction);
-    scene.with_slip = false;
-    EXPECT_GT(relative_error(samples_of(shoot(scene, 1)), everywhere), 1e-4);
-    scene.with_slip = true;
   }
 }
 

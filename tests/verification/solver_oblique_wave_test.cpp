@@ -6,9 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "cube.hpp"
 #include "fitted_medium.hpp"
-#include "lab.hpp"
-#include "plain_and_tiled.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -205,20 +204,6 @@ TEST(ObliquePlaneWave, NeedsTheSameLayersAtBothSides) {
   EXPECT_THROW(check(scene), Error) << "already at the body";
 }
 
-TEST(ObliquePlaneWave, GivesTheBitsOfTilesInLayersToo) {
-  auto scene = scene_of(two_layers(100, 50, 5, 150), "plane:25", {250, 0}, 0.12);
-  scene.numerics.zone_cells = 10;
-  for (std::int64_t i = 50; i < 70; ++i) put(scene.model.medium, {i, 40}, upper);
-  scene.survey.receivers_m = {{300, 52}, {450, 202}};
-  expect_same(scene);
-  scene.edges[1][0] = EdgeLaw::free;
-  scene.numerics.time_order = 4;
-  scene.numerics.cfl = 1.5;
-  scene.survey.sources[0].mechanism = parse_mechanism<2>("plane-s:200");
-  scene.survey.sources[0].position_m = {250, 300};
-  expect_same(scene);
-}
-
 /// In 3-D, across y the same everywhere.
 // Proves (A16).
 TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
@@ -335,13 +320,6 @@ TEST(ObliquePlaneWave, OfOneMediumHasItsClosedFormAtAnyAzimuth) {
         }
     EXPECT_LT(relative_error(samples_of(gather), expected), 5e-3) << time_order;
   }
-}
-
-TEST(ObliquePlaneWave, GivesTheBitsOfTilesWithAnAzimuthToo) {
-  auto cube = cube_of(two_layers(36, 20, 5, 60), 10, "plane-s:20,60", 10);
-  cube.survey.receivers_m.resize(1);
-  cube.recording.duration_s = 0.012;
-  expect_same(cube);
 }
 
 TEST(ObliquePlaneWave, WithAnAzimuthNeedsTheSideItEntersBy) {

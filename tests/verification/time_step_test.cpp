@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <array>
 #include <random>
 
 #include "cube.hpp"
-#include "plain_and_tiled.hpp"
 #include "solver/shot_simulation.hpp"
 
-// The tiled executor against the plain one, which does each entry of the time step on the whole grid.
+// What a time step is made of, and what its effects write.
 namespace slipwave::solver {
 namespace {
 
@@ -35,105 +33,6 @@ Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
   scene.edges[1][0] = EdgeLaw::free;
   scene.recording = {{Component::vx, Component::vz, Component::p}, 0.12, 0.001};
   return scene;
-}
-
-// Proves (S27).
-TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
-  const std::array corrections = {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
-                                  SlipCorrection::centred};
-  // Orders and corrections meet in different places of the code: each order with one of them.
-  for (std::size_t n = 0; n < std::size(orders); ++n) {
-    auto scene = sea();
-    scene.numerics.order = orders[n];
-    scene.numerics.correction = corrections[n % corrections.size()];
-    scene.numerics.double_precision = orders[n] == 3;
-    expect_same(scene);
-  }
-}
-
-TEST(PlainExecutor, GivesTheBitsOfTilesWhereWavesStayMonotone) {
-  for (const int order : {3, 7}) {
-    auto scene = sea();
-    scene.numerics.order = order;
-    scene.numerics.monotone = true;
-    expect_same(scene);
-  }
-}
-
-TEST(PlainExecutor, GivesTheBitsOfTilesWithSnapshotsAndADiary) {
-  auto scene = sea();
-  scene.snapshot_every_s = 0.03;
-  expect_same(scene);
-  scene.slip_diary = true;
-  expect_same(scene);
-}
-
-TEST(PlainExecutor, GivesTheBitsOfTilesWithOpeningUnderStaticStress) {
-  auto scene = sea();
-  for (auto& set : scene.model.fracture_sets)
-    for (auto& system : set.systems) {
-      system.opens = true;
-      system.strength_pa = 10;
-    }
-  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -20.F));
-  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 3.F);
-  scene.slip_diary = true;
-  expect_same(scene);
-}
-
-TEST(PlainExecutor, GivesTheBitsOfTilesAtAllEdgesAndOrdersInTime) {
-  // Edges other than absorbing ones are filled alike at both orders in time.
-  for (const auto& [sides, time_order] : {std::pair{EdgeLaw::free, 4},
-                                          {EdgeLaw::rigid, 2},
-                                          {EdgeLaw::mirror, 4},
-                                          {EdgeLaw::absorbing, 2},
-                                          {EdgeLaw::absorbing, 4}}) {
-    SCOPED_TRACE(std::to_string(int(sides)) + ", order " + std::to_string(time_order) + " in time");
-    auto scene = sea();
-    scene.edges[0] = {sides, sides};
-    scene.numerics.time_order = time_order;
-    scene.numerics.order = time_order == 4 ? 7 : 5;
-    scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
-    expect_same(scene);
-  }
-}
-
-TEST(PlainExecutor, GivesTheBitsOfTilesUnderPlaneWaves) {
-  for (const char* mechanism : {"plane:0", "plane:20"}) {
-    SCOPED_TRACE(mechanism);
-    auto scene = sea();
-    scene.model.medium = uniform_medium(330, 120, 5, rock);
-    scene.edges[1][0] = EdgeLaw::absorbing;
-    scene.survey.sources = {{{0, 0}, parse_mechanism<2>(mechanism), parse_wavelet("ricker:40"), 1}};
-    scene.slip_diary = true;
-    expect_same(scene);
-  }
-}
-
-TEST(PlainExecutor, GivesTheBitsOfTilesInThreeDimensions) {
-  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::absorbing}) {
-    Scene<3> scene;
-    const Index<3> shape = {70, 24, 40};
-    scene.model.medium = lumps(shape, 5, 7);
-    scene.model.fracture = Field<3, std::uint8_t>(scene.model.grid());
-    for (std::int64_t k = 15; k < 20; ++k)
-      for (std::int64_t j = 8; j < 14; ++j)
-        for (std::int64_t i = 30; i < 38; ++i) {
-          put(scene.model.medium, {i, j, k}, rock);
-          scene.model.fracture({i, j, k}) = 1;
-        }
-    put(scene.model.medium, {30, 6, 10}, rock);
-    scene.model.fracture_sets = {{"cracks", {{{0, 0.6, 0.8}, 0.4, 1000, 0}}}};
-    scene.survey.sources = {
-        {{152, 32, 52}, parse_mechanism<3>("force:1,2,3"), parse_wavelet("ricker:80"), 1e9}};
-    scene.survey.receivers_m = {{172.5, 52.5, 87.5}};
-    put(scene.model.medium, {34, 10, 17}, rock);
-    for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {sides, sides};
-    scene.numerics.zone_cells = 6;
-    scene.recording = {{Component::vx, Component::vz}, 0.02, 0.001};
-    scene.slip_diary = true;
-    expect_same(scene);
-  }
 }
 
 // docs/solver.md shows these lists.

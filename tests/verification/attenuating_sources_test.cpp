@@ -1,36 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Attenuation gives the same bits whoever executes it, in pieces or as a whole.
+// Attenuation adds up, begins with its source and does nothing where it is none.
 #include <gtest/gtest.h>
 
-#include <random>
-
-#include "continued.hpp"
-#include "plain_and_tiled.hpp"
-#include "shared_out.hpp"
+#include "cube.hpp"
 
 namespace slipwave::solver {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
-
-/// Random Q from 5 to 1000 in blocks of cells, some of which do not attenuate.
-template <int D>
-void attenuate(Scene<D>& scene, unsigned seed) {
-  auto& medium = scene.model.medium;
-  std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> power(std::log(5.), std::log(1000.));
-  for (const auto property : {Property::qp, Property::qs}) {
-    medium[property] = Field<D>(medium.grid(), float(PropertyRow::infinite));
-    for (std::size_t first = 0; first < medium.vp.size(); first += 20) {
-      const bool elastic = engine() % 4 == 0;
-      const auto q = float(std::exp(power(engine)));
-      for (std::size_t cell = first; cell < std::min(first + 20, medium.vp.size()); ++cell)
-        if (!elastic && (property == Property::qp ? !medium.is_void(cell) : medium.is_solid(cell)))
-          medium[property][cell] = q;
-    }
-  }
-  set_attenuation(scene);
-}
 
 /// Water over rocks with a cluster of fractures and a free surface.
 Scene<2> sea(std::int64_t nx = 180, std::int64_t nz = 100) {
@@ -51,60 +28,6 @@ Scene<2> sea(std::int64_t nx = 180, std::int64_t nz = 100) {
   scene.edges[1][0] = EdgeLaw::free;
   scene.recording = {{Component::vx, Component::vz, Component::p}, 0.06, 0.001};
   return scene;
-}
-
-Scene<3> cube() {
-  Scene<3> scene;
-  scene.model.medium = lumps({50, 16, 30}, 5, 7);
-  put(scene.model.medium, {30, 6, 10}, rock);
-  put(scene.model.medium, {34, 10, 17}, rock);
-  scene.survey.sources = {
-      {{152, 32, 52}, parse_mechanism<3>("moment:1,2,3,4,5,6"), parse_wavelet("ricker:80"), 1e9}};
-  scene.survey.receivers_m = {{172.5, 52.5, 87.5}};
-  scene.edges = edges_all_3d(EdgeLaw::absorbing);
-  scene.edges[2][0] = EdgeLaw::free;
-  scene.numerics.zone_cells = 6;
-  scene.recording = {{Component::vx, Component::vz}, 0.012, 0.001};
-  return scene;
-}
-
-TEST(Attenuation, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const int time_order : {2, 4}) {
-    SCOPED_TRACE(std::to_string(time_order));
-    auto scene = sea();
-    scene.numerics.time_order = time_order;
-    scene.numerics.double_precision = time_order == 4;
-    attenuate(scene, 1);
-    expect_same(scene);
-  }
-  auto fluid = sea();
-  fluid.model.medium = uniform_medium(180, 100, 5, water);
-  fluid.model.fracture = {};
-  fluid.model.fracture_sets.clear();
-  attenuate(fluid, 2);
-  expect_same(fluid);
-}
-
-TEST(Attenuation, GivesTheBitsOfThePlainExecutorInThreeDimensions) {
-  auto scene = cube();
-  attenuate(scene, 3);
-  expect_same(scene);
-}
-
-TEST(Attenuation, IsTheSameOnSeveralRanks) {
-  auto scene = sea(90, 190);
-  attenuate(scene, 4);
-  scene.numerics.tiling = {};
-  const auto alone = all_samples(shoot(scene, 1));
-  for (const int count : {2, 3})
-    EXPECT_TRUE(all_samples(shared_out(scene, count, 2)) == alone) << count << " ranks";
-  EXPECT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-}
-
-TEST(Attenuation, ContinuesFromACheckpoint) {
-  auto scene = sea();
-  attenuate(scene, 5);
-  expect_to_continue(scene);
 }
 
 /// Rock that attenuates strongly, in double precision, with steps that fit the samples.
@@ -142,11 +65,10 @@ double largest_difference(const std::vector<double>& one, const std::vector<doub
 TEST(Attenuation, OfSourcesFiredTogetherAddsUp) {
   // In one row of cells: rows near sources are swept in two halves.
   const auto one = source_at({150, 125}, 0), other = source_at({164, 126}, 0);
-  auto sum = all_samples(shoot(lossy({one}), 1));
-  const auto added = all_samples(shoot(lossy({other}), 1));
+  auto sum = samples_of(shoot(lossy({one}), 1));
+  const auto added = samples_of(shoot(lossy({other}), 1));
   for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += added[n];
-  EXPECT_LT(largest_difference(all_samples(shoot(lossy({one, other}), 1)), sum), 1e-9);
-  expect_same(lossy({one, source_at({157, 145}, 0.03)}));
+  EXPECT_LT(largest_difference(samples_of(shoot(lossy({one, other}), 1)), sum), 1e-9);
 }
 
 TEST(Attenuation, BeginsWithADelayedSource) {

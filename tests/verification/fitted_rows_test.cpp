@@ -1,66 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitted_scenes.hpp"
-#include "plain_and_tiled.hpp"
 
-// The tiled executor against the plain one where rows follow horizons.
+// Rows that follow horizons, where these are level.
 namespace slipwave::solver {
 namespace {
-
-TEST(FittedPlain, GivesTheBitsOfTilesAtAllOrders) {
-  const SlipCorrection corrections[] = {SlipCorrection::first, SlipCorrection::second,
-                                        SlipCorrection::exponential, SlipCorrection::second};
-  for (std::size_t n = 0; n < std::size(orders); ++n) {
-    SCOPED_TRACE(orders[n]);
-    auto scene = orders[n] == 5 ? fitted_hills() : fitted_sea();
-    scene.numerics.order = orders[n];
-    scene.numerics.correction = corrections[n % 4];
-    scene.numerics.double_precision = orders[n] == 3;
-    expect_same(scene);
-  }
-}
-
-// Proves (F10).
-TEST(FittedPlain, GivesTheBitsOfTilesAtAllEdgesAndOrdersInTime) {
-  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing})
-    for (const int time_order : {sides == EdgeLaw::free || sides == EdgeLaw::rigid ? 2 : 4}) {
-      SCOPED_TRACE(std::to_string(int(sides)) + ", order " + std::to_string(time_order) + " in time");
-      auto scene = time_order == 4 ? fitted_sea() : fitted_hills();
-      scene.edges[0] = {sides, sides};
-      if (sides != EdgeLaw::mirror) scene.edges[1] = {sides, sides};
-      scene.numerics.time_order = time_order;
-      scene.numerics.order = time_order == 4 ? 7 : 5;
-      scene.numerics.double_precision = sides == EdgeLaw::rigid;
-      scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
-      expect_same(scene);
-    }
-}
-
-TEST(FittedPlain, GivesTheBitsOfTilesWithSnapshotsADiaryAndOpening) {
-  auto scene = fitted_sea();
-  scene.snapshot_every_s = 0.03;
-  scene.slip_diary = true;
-  expect_same(scene);
-  for (auto& set : scene.model.fracture_sets)
-    for (auto& system : set.systems) {
-      system.opens = true;
-      system.strength_pa = 10;
-    }
-  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -20.F));
-  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 3.F);
-  expect_same(scene);
-}
-
-TEST(FittedPlain, GivesTheBitsOfTilesInThreeDimensions) {
-  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::absorbing}) {
-    auto scene = fitted_sea_3d();
-    for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {sides, sides};
-    scene.numerics.order = sides == EdgeLaw::free ? 7 : 5;
-    scene.numerics.time_order = sides == EdgeLaw::free ? 4 : 2;
-    scene.numerics.double_precision = sides == EdgeLaw::absorbing;
-    scene.slip_diary = true;
-    expect_same(scene);
-  }
-}
 
 /// The same scene with a grid that has the depths of a regular one.
 template <int D>
