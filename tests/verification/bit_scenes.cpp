@@ -306,7 +306,7 @@ BitScenes cut_cells() {
            {"Springs", {springs}},
            {"TwoSprings", {springs, springs_across}},
            {"SlidingSprings", {sliding}}})
-    all.push_back({"CutCells" + name, [systems] {
+    all.push_back({"CutCells" + name, [systems = systems] {
                      auto scene = in_one_rock();
                      scene.model.fracture = {}, scene.model.fracture_sets = {};
                      add_fractures<2>(scene.model, {"slab", systems}, parse_slab("350,240:130,57:25"));

@@ -35,8 +35,13 @@ void sweep_by_sweep(Cube<Real>& cube, std::int64_t steps, int time_order) {
 template <class Real>
 std::vector<Real> fields_of(Cube<Real>& cube) {
   std::vector<Real> all;
-  for (std::int64_t n = 0; n < cube.grid().size(); ++n)
-    for (int row = 0; row < FieldRows<3>::count; ++row) all.push_back(cube(row, cube.grid().index(n)));
+  const auto& shape = cube.grid().shape;
+  for (std::int64_t k = 0; k < shape[2]; ++k)
+    for (std::int64_t j = 0; j < shape[1]; ++j)
+      for (int row = 0; row < FieldRows<3>::count; ++row) {
+        const Real* const first = &cube(row, {0, j, k});
+        all.insert(all.end(), first, first + shape[0]);
+      }
   return all;
 }
 
@@ -57,12 +62,14 @@ void expect_same_as_sweeps(const Medium<3>& medium, const TilingCase& of,
   const auto edges = edges_all_3d(of.edges);
   Cube<float> one(medium, edges, of.order, dt_s, of.time_order);
   one.shake(1);
+  const auto& fields = one.state().fields;
+  const std::vector<float> begun(fields.data(), fields.data() + fields.size());
   sweep_by_sweep(one, steps, of.time_order);
   const auto expected = fields_of(one);
   for (const auto& [tiling, threads] : tilings) {
     const ThreadLimit limit(threads);
     Cube<float> cube(medium, edges, of.order, dt_s, of.time_order);
-    cube.shake(1);
+    std::copy(begun.begin(), begun.end(), cube.state().fields.data());
     auto step = sweeps_of(cube, dt_s, of.time_order, steps);
     TiledExecutor<3, float> executor(cube.sweeps(), cube.state(), step, tiling);
     executor.fields_changed();
@@ -74,14 +81,17 @@ void expect_same_as_sweeps(const Medium<3>& medium, const TilingCase& of,
 
 TEST(TilingOfACube, DoesWhatSweepsOneAfterTheOtherDo) {
   // More planes than two bands, rows for several stripes.
-  const auto medium = lumps({21, 37, 97}, 5, 3);
+  const auto medium = lumps({17, 29, 72}, 5, 3);
   for (const auto& of :
        {TilingCase{"free edges", EdgeLaw::free, 5, 2}, TilingCase{"free edges, order 3", EdgeLaw::free, 3, 2},
         TilingCase{"free edges, order 4 in time", EdgeLaw::free, 7, 4},
         TilingCase{"rigid", EdgeLaw::rigid, 1, 2},
         TilingCase{"mirrors, order 4 in time", EdgeLaw::mirror, 3, 4},
         TilingCase{"mirrors", EdgeLaw::mirror, 7, 2}})
-    expect_same_as_sweeps(medium, of, {{{1, 100, true}, 3}, {{2, 7}, 1}, {{3, 12, true}, 3}, {{0, 0}, 1}});
+    expect_same_as_sweeps(medium, of,
+                          of.time_order == 4 || of.order == 1
+                              ? std::vector<TilingAndThreads>{{{1, 100, true}, 3}, {{2, 7}, 1}}
+                              : std::vector<TilingAndThreads>{{{3, 12, true}, 3}, {{0, 0}, 1}});
 }
 
 /// A medium of gently different cells: no interfaces and no uniform runs, so that all rows are fused.

@@ -150,14 +150,15 @@ TEST(Ranks, ThatHoldAllRowsOfANeighbourRecordWhatOneProcessDoes) {
       for (const int side : {0, 1})
         if (absorbing & (1 << side)) scene.edges[1][std::size_t(side)] = EdgeLaw::absorbing;
       scene.survey.sources[0].position_m = {203, 81};
+      scene.survey.sources[0].wavelet = parse_wavelet("ricker:80");
+      scene.recording.duration_s = 0.06;
       scene.survey.receivers_m.clear();
       for (double z = 3; z < 5. * double(rows); z += 7) scene.survey.receivers_m.push_back({123.4, z});
       EXPECT_TRUE(holds_all_of_a_neighbour(scene, count));
       ASSERT_TRUE(each_owns_its_part(scene, count));
       const auto alone = all_samples(shoot(scene, 1));
       ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-      for (const int threads : {1, 3})
-        EXPECT_TRUE(all_samples(shared_out(scene, count, threads)) == alone) << threads << " threads";
+      EXPECT_TRUE(all_samples(shared_out(scene, count, count == 3 ? 1 : 3)) == alone);
     }
 }
 
@@ -170,7 +171,8 @@ TEST(Ranks, ThatHoldAllRowsOfANeighbourDoSoInThreeDimensions) {
   edges[2][0] = EdgeLaw::free;
   auto scene =
       scene_of(medium, edges, {105, 65, 95}, "explosion", "ricker:8",
-               {{55, 65, 95}, {55, 65, 155}, {75, 42, 171}}, {Component::vz, Component::p}, 0.1, 0.001);
+               {{55, 65, 95}, {55, 65, 155}, {75, 42, 171}}, {Component::vz, Component::p}, 0.05, 0.001);
+  scene.numerics.zone_cells = 8;
   EXPECT_TRUE(holds_all_of_a_neighbour(scene, 2));
   ASSERT_TRUE(each_owns_its_part(scene, 2));
   const auto alone = all_samples(shoot(scene, 1));
@@ -190,7 +192,7 @@ TEST(Ranks, ThatHoldFluidAloneRecordWhatOneProcessDoes) {
     scene.edges = edges_all(EdgeLaw::absorbing);
     scene.survey.sources[0].position_m = {203, 381};
     scene.survey.receivers_m = {{34.3, 5}, {444, 405}, {301, 777}};
-    scene.recording.duration_s = 0.5;
+    scene.recording.duration_s = 0.25;
     const auto alone = all_samples(shoot(scene, 1));
     for (const int count : {2, 3})
       EXPECT_TRUE(all_samples(shared_out(scene, count)) == alone) << count << " ranks, row " << floor;
