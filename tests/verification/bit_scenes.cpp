@@ -5,6 +5,7 @@
 #include <random>
 
 #include "fitted_scenes.hpp"
+#include "grid/locate.hpp"
 #include "model/fracture.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/single_fracture.hpp"
@@ -30,6 +31,8 @@ void fill(Medium<D>& medium, Of&& of) {
 /// The first waves pass the fractures and all cuts of rows and columns.
 template <int D>
 void make_short(Scene<D>& scene, double duration_s) {
+  for (auto& of_shot : scene.survey.blended)
+    for (auto& source : of_shot) source.wavelet = parse_wavelet("ricker:80");
   scene.survey.sources[0].wavelet = parse_wavelet(D == 2 ? "ricker:80" : "ricker:160");
   scene.recording.duration_s = long_form() ? 3 * duration_s : duration_s;
 }
@@ -41,7 +44,11 @@ Scene<2> with_clusters(Scene<2> scene) {
   fracture_rows(model, 230, 290, 76, 96, 1);
   fracture_rows(model, 150, 170, 36, 50, 2);
   scene.survey.sources[0].position_m = {333, 203};
-  scene.survey.receivers_m = {{230, 130}, {462.5, 261.3}, {440, 333}, {90, 162}, {700, 301}, {505, 118}};
+  scene.survey.receivers_m = {{230, 130}, {462.5, 261.3}, {440, 333}, {55, 182}, {700, 301}, {505, 118}};
+  // Another one beside the zone at a side, whose waves come back to a receiver there.
+  auto beside = scene.survey.sources[0];
+  beside.position_m = {42, 203};
+  scene.survey.blended = {{beside}};
   make_short(scene, 0.03);
   return scene;
 }
@@ -181,6 +188,7 @@ Scene<2> plane_wave(const char* mechanism, double from_m, double lower_from_m, E
   });
   scene.edges[1][0] = top;
   scene.survey.sources = {{{330, from_m}, parse_mechanism<2>(mechanism), parse_wavelet("ricker:80"), 1}};
+  scene.survey.blended = {};
   scene.model.fracture_sets = {{"cracks", {{{0.6, 0.8}, 0.3, 1000, 0}}},
                                {"more", {{{0.8, -0.6}, 0.2, 0, 0}}}};
   scene.numerics.zone_cells = 10;
@@ -235,8 +243,8 @@ Scene<2> blended() {
   auto other = scene.survey.sources[0];
   other.position_m = {357, 245}, other.delay_s = 0.008;
   scene.survey.blended = {{other}};
-  scene.numerics.double_precision = true;
   scene = attenuated(std::move(scene), 6);
+  scene.numerics.double_precision = true;
   return scene;
 }
 
@@ -260,13 +268,15 @@ BitScenes springs() {
     const char* name;
     std::vector<SlipSystem<2>> systems;
     SlipCorrection correction;
+    int time_order = 2;
   };
   BitScenes all;
   for (const auto& of :
        std::vector<Springs>{{"One", {spring({0.6, 0.8}, 0.4 / mu, 0.7 / mu)}, SlipCorrection::second},
                             {"TwoInTime4",
                              {spring({0, 1}, 0.4 / mu, 0.7 / mu), spring({0.8, 0.6}, 0, 2 / mu)},
-                             SlipCorrection::exponential},
+                             SlipCorrection::exponential,
+                             4},
                             {"Sliding", {sliding}, SlipCorrection::first},
                             {"SlidingBlocks", {block, across}, SlipCorrection::second},
                             {"SlidingCentred", {sliding}, SlipCorrection::centred},
@@ -279,8 +289,7 @@ BitScenes springs() {
                      for (auto& code : scene.model.fracture) code = std::min<std::uint8_t>(code, 1);
                      scene.model.fracture_sets = {{"springs", of.systems}};
                      scene.numerics.correction = of.correction;
-                     scene.numerics.time_order =
-                         of.systems.size() == 2 && of.correction == SlipCorrection::exponential ? 4 : 2;
+                     scene.numerics.time_order = of.time_order;
                      scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
                      return scene;
                    }});
@@ -438,9 +447,7 @@ Scene<3> lumps_with(EdgeLaw sides, int order, int time_order, const char* mechan
         scene.model.fracture({i, j, k}) = i != 17 || j != 9;
       }
   for (const auto& at : scene.survey.receivers_m)
-    put(scene.model.medium, scene.model.grid().index(0), rock),
-        put(scene.model.medium, {std::int64_t(at[0] / 5), std::int64_t(at[1] / 5), std::int64_t(at[2] / 5)},
-            rock);
+    put(scene.model.medium, cell_of(scene.model.grid(), at), rock);
   scene.model.fracture_sets = {{"cracks", {{{0, 0.6, 0.8}, 0.4, 1000, 0}}}};
   scene.numerics.order = order, scene.numerics.time_order = time_order;
   scene.slip_diary = sides != mirror;
