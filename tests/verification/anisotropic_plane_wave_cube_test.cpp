@@ -196,12 +196,5 @@ TEST(AnisotropicPlaneWaveInSpace, IsTurnedWithItsRock) {
   EXPECT_LT(relative_error(back, one), 0.01);
 }
 
-// Proves (A19).
-TEST(AnisotropicPlaneWaveInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
-  auto scene = box(turned_by(cracked, 40, 25, -50), shale, 14, "plane:25,40", 0.04);
-  scene.survey.sources[0].position_m[2] = -30;
-  expect_same(scene);
-}
-
 }  // namespace
 }  // namespace slipwave::solver

@@ -193,15 +193,5 @@ TEST(AnisotropicPlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   }
 }
 
-// Proves (A17).
-TEST(AnisotropicPlaneWave, GivesTheBitsOfThePlainExecutorInTiles) {
-  auto scene = layers(60, "plane:155");
-  scene.numerics.zone_cells = 10;
-  scene.recording.duration_s = 0.12;
-  scene.survey.sources[0].position_m[1] = 320;
-  for (std::int64_t i = 25; i < 40; ++i) put(scene.model.medium, std::size_t(20 * 60 + i), hard);
-  expect_same(scene);
-}
-
 }  // namespace
 }  // namespace slipwave::solver

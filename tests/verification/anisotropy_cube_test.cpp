@@ -142,29 +142,6 @@ TEST(AnisotropyInSpace, OfNoneIsIsotropicRock) {
 }
 
 // Proves (O1).
-TEST(AnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const bool orthorhombic : {false, true}) {
-    SCOPED_TRACE(orthorhombic ? "orthorhombic" : "alike in all horizontal directions");
-    auto scene = blocks({shale, crossed, orthorhombic ? cracked : shale}, {86, 22, 26});
-    scene.recording.duration_s = 0.02;
-    scene.numerics.double_precision = orthorhombic;
-    scene.survey.sources[0].position_m = {202, 61, 72};
-    scene.survey.receivers_m = {{230, 81, 90}, {182, 55, 103}};
-    expect_same(scene);
-  }
-}
-
-// Proves (O1).
-TEST(AnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
-  // The first of them hold water and isotropic rock only.
-  auto scene = blocks({shale, crossed, cracked}, {30, 24, 60});
-  scene.survey.receivers_m = {{111, 81, 120}, {42, 55, 243}};
-  make_isotropic(scene.model.medium, std::size_t(30 * 24 * 40));
-  const auto alone = samples_of(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
-}
-
-// Proves (O1).
 TEST(AnisotropyInSpace, DoesNotDependOnWhichWayItIsShot) {
   const ThreadLimit one_thread(1);
   auto scene = blocks({shale, crossed, cracked}, {44, 40, 42});

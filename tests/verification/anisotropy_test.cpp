@@ -165,29 +165,6 @@ Scene<2> blocks(std::int64_t nx = 150, std::int64_t nz = 90) {
 }
 
 // Proves (V1).
-TEST(Anisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const int time_order : {2, 4}) {
-    SCOPED_TRACE(std::to_string(time_order));
-    auto scene = blocks();
-    scene.numerics.time_order = time_order;
-    scene.numerics.double_precision = time_order == 4;
-    scene.numerics.order = time_order == 4 ? 7 : 5;
-    expect_same(scene);
-  }
-}
-
-// Proves (V1).
-TEST(Anisotropy, GivesTheBitsOfOneProcessOnSeveral) {
-  // The first ones hold water and isotropic rock only.
-  auto scene = blocks(100, 200);
-  auto& medium = scene.model.medium;
-  for (std::size_t cell = 0; cell < std::size_t(100 * 120); ++cell)
-    medium[Property::epsilon][cell] = medium[Property::delta][cell] = 0;
-  const auto alone = all_samples(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
-}
-
-// Proves (V1).
 TEST(Anisotropy, DoesNotDependOnWhichWayItIsShot) {
   // Reciprocity of forces, through water and blocks of rock.
   auto scene = blocks();

@@ -95,31 +95,6 @@ TEST(AskewSlipInSpace, IsTurnedWithItsRock) {
 }
 
 // Proves (S34a).
-TEST(AskewSlipInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const auto correction : {SlipCorrection::centred, SlipCorrection::second}) {
-    auto scene =
-        cluster(turned_by(cracked, 25, 35, 50), families({{35, 20}, {90, 80}}, 0.2, 200), {40, 12, 14});
-    scene.survey.sources[0].position_m = {92, 31, 23};
-    scene.survey.receivers_m = {{111, 42, 48}};
-    scene.edges[0] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
-    scene.numerics.zone_cells = 6;
-    scene.numerics.correction = correction;
-    scene.recording.duration_s = 0.03;
-    expect_same(scene);
-  }
-}
-
-// Proves (S34a).
-TEST(AskewSlipInSpace, GivesTheBitsOfOneProcessOnSeveral) {
-  auto scene = cluster(turned_by(shale, 25, 35), families({{35, 20}, {90, 80}}, 0.2, 200), {20, 12, 46});
-  scene.survey.sources[0].position_m = {52, 31, 63};
-  scene.survey.receivers_m = {{51, 42, 98}};
-  scene.recording.duration_s = 0.05;
-  const auto alone = samples_of(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
-}
-
-// Proves (S34a).
 TEST(AskewSlipInSpace, OnlyTakesEnergy) {
   const ThreadLimit one_thread(1);
   // Any stiffness about any axes from cell to cell, and any planes; what the diary says slip has turned into

@@ -77,26 +77,5 @@ TEST(AskewSlip, OfBedsThatDipIsThatOfFlatBedsTurned) {
   EXPECT_LT(relative_error(of_dipping, of_flat), 0.05);
 }
 
-// Proves (S34).
-TEST(AskewSlip, GivesTheBitsOfThePlainExecutorInTiles) {
-  Turned turned{30};
-  turned.h = 8;
-  for (const auto correction : {SlipCorrection::centred, SlipCorrection::second}) {
-    auto scene = turned.scene();
-    scene.numerics.correction = correction;
-    scene.recording.duration_s = 0.1;
-    expect_same(scene);
-  }
-}
-
-// Proves (S34).
-TEST(AskewSlip, GivesTheBitsOfOneProcessOnSeveral) {
-  Turned turned{30};
-  turned.h = 8;
-  const auto scene = turned.scene();
-  const auto alone = all_samples(shoot(scene, 1));
-  EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone);
-}
-
 }  // namespace
 }  // namespace slipwave::solver

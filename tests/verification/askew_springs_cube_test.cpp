@@ -137,26 +137,6 @@ TEST(AskewSpringsInSpace, AreTurnedWithTheirRock) {
 }
 
 // Proves (S34b).
-TEST(AskewSpringsInSpace, GiveTheBitsOfThePlainExecutorInTilesAndOfOneProcessOnSeveral) {
-  auto scene = cluster(turned_by(cracked, 25, 35, 50), springs({{35, 20}, {90, 80}}, 0.4, 0.7), {40, 12, 14});
-  scene.survey.sources[0].position_m = {92, 31, 23};
-  scene.survey.receivers_m = {{111, 42, 48}};
-  scene.edges[0] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
-  scene.numerics.zone_cells = 6;
-  scene.recording.duration_s = 0.03;
-  expect_same(scene);
-  // Level planes meet rock that is alike in all horizontal directions above and tilted rock below.
-  auto parts = cluster(turned_by(shale, 25, 35), springs({{0, 0}}, 0.4, 0.7), {20, 12, 46});
-  auto& medium = parts.model.medium;
-  for (std::size_t cell = 0; cell < medium.vp.size() / 2; ++cell) put(medium, cell, shale);
-  parts.survey.sources[0].position_m = {52, 31, 63};
-  parts.survey.receivers_m = {{51, 42, 98}};
-  parts.recording.duration_s = 0.05;
-  const auto alone = samples_of(shoot(parts, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(parts, ranks)) == alone) << ranks;
-}
-
-// Proves (S34b).
 TEST(AskewSpringsInSpace, NeverAddEnergyHoweverStiffOrSoft) {
   const ThreadLimit one_thread(1);
   // Any stiffness about any axes from block to block, any planes.

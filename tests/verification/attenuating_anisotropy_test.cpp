@@ -86,45 +86,6 @@ TEST(AttenuatingAnisotropy, OfCellsThatInterfacesCutIsThatOfTiltedMeans) {
   EXPECT_LT(relative_error(found, wanted), 0.008);
 }
 
-/// Attenuating layers of all kinds, with cells that interfaces cut, below water.
-Scene<2> layers(std::int64_t nx, std::int64_t nz) {
-  Scene<2> scene;
-  const Grid<2> grid{{nx, nz}, 5, {0, 0}};
-  scene.model.medium = layered_medium(
-      grid,
-      {parse_layer("-1000:1500:0:1000"), parse_layer("60:2000:1000:2000:8 qp=30 qs=20"),
-       parse_layer("130:3000:1600:2300:-6 qp=60 qs=30"),
-       parse_layer("220:3000:1600:2300 epsilon=0.2 delta=0.1 tilt=30 qp=40 qs=25"),
-       parse_layer("330:3200:1700:2400 epsilon=-0.05 delta=0.2 qp=80"), parse_layer("400:3500:1900:2400:4")},
-      Average::tilted);
-  scene.survey.sources = {{{152, 160}, parse_mechanism<2>("force:1,1"), parse_wavelet("ricker:40"), 1e9}};
-  scene.survey.receivers_m = {{120, 130}, {200, 211.3}, {40, 182}};
-  scene.edges = edges_all(EdgeLaw::absorbing);
-  scene.edges[1][0] = EdgeLaw::free;
-  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.06, 0.001};
-  set_attenuation(scene);
-  return scene;
-}
-
-// Proves (Q10).
-TEST(AttenuatingAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const int time_order : {2, 4}) {
-    SCOPED_TRACE(std::to_string(time_order));
-    auto scene = layers(70, 90);
-    ASSERT_GT(tilted_means(scene.model.medium), 50);
-    scene.numerics.time_order = time_order;
-    scene.numerics.double_precision = time_order == 4;
-    expect_same(scene);
-  }
-}
-
-// Proves (Q10).
-TEST(AttenuatingAnisotropy, GivesTheBitsOfOneProcessOnSeveral) {
-  const auto scene = layers(60, 100);
-  const auto alone = all_samples(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
-}
-
 // Proves (Q9).
 TEST(AttenuatingAnisotropy, RelaxesIsotropicCellsAsIsotropicMediaDo) {
   std::mt19937 engine(3);

@@ -236,40 +236,5 @@ TEST(AttenuatingSpace, WithoutLossIsElasticToTheBit) {
   EXPECT_LT(relative_error(samples_of(shoot(scene, 1)), elastic), 2e-5);
 }
 
-// Proves (Q12).
-TEST(AttenuatingSpace, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const bool in_double : {false, true}) {
-    SCOPED_TRACE(in_double);
-    auto scene = blocks({54, 14, 16});
-    attenuate_blocks(scene.model.medium, 9);
-    set_attenuation(scene);
-    scene.numerics.time_order = in_double ? 4 : 2;
-    scene.numerics.double_precision = in_double;
-    scene.survey.receivers_m = {{120, 61, 70}, {42, 35, 63}};
-    scene.recording.duration_s = 0.01;
-    expect_same(scene);
-  }
-}
-
-// Proves (Q12).
-TEST(AttenuatingSpace, GivesTheBitsOfOneProcessOnSeveral) {
-  auto scene = blocks({34, 14, 46});
-  scene.survey.receivers_m = {{111, 61, 120}, {42, 55, 183}};
-  // The first of them hold water and isotropic rock only.
-  make_isotropic(scene.model.medium, std::size_t(34 * 14 * 24));
-  attenuate_blocks(scene.model.medium, 11);
-  set_attenuation(scene);
-  const auto alone = samples_of(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
-}
-
-// Proves (Q12).
-TEST(AttenuatingSpace, ContinuesFromACheckpointWithTheSameBits) {
-  auto scene = blocks({34, 18, 22});
-  attenuate_blocks(scene.model.medium, 9);
-  set_attenuation(scene);
-  expect_to_continue(scene);
-}
-
 }  // namespace
 }  // namespace slipwave::solver

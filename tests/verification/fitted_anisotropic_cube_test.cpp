@@ -214,43 +214,6 @@ TEST(FittedAnisotropyInSpace, OfNextToNoneIsIsotropicRock) {
   }
 }
 
-// Proves (F16).
-TEST(FittedAnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const bool hills : {false, true}) {
-    SCOPED_TRACE(hills ? "hills" : "sea");
-    auto scene = sea_or_hills(hills, hills ? turned_by(cracked, 30, 20, 15) : shale, {54, 14, 40});
-    scene.survey.sources[0].position_m = {182, 51, 132};
-    scene.survey.receivers_m = {{190, 61, 120}, {172, 55, 143}};
-    scene.recording.duration_s = 0.006;
-    scene.numerics.double_precision = hills;
-    scene.numerics.time_order = hills ? 4 : 2;
-    scene.numerics.order = hills ? 7 : 5;
-    expect_same(scene);
-  }
-}
-
-// Proves (F16).
-TEST(FittedAnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
-  // Below the floor another rock that is isotropic, so that the last of them hold no other.
-  for (const double tilt : {0., 30.}) {
-    if (tilt == 0 && !long_form()) continue;
-    const Index<3> shape = {24, 20, 110};
-    auto scene = sea_or_hills(false, shale, shape);
-    const auto floor = [](double x, double y) { return 63 + 0.1 * x - 0.15 * y; };
-    scene.model.medium = fitted_medium<3>(
-        Grid<3>{shape, 5, {0, 0, 0}},
-        {water_above, below(floor, {3000, 1600, 2300}), below(dipping(253, 0.07), {3600, 1900, 2450})});
-    put_rocks(scene.model.medium, turned_by(shale, tilt, 40), {3600, 1900, 2450}, 3300);
-    scene.survey.sources[0].position_m = {62, 52, 92};
-    scene.survey.receivers_m = {{41, 81, 120}, {42, 55, 423}};
-    scene.recording.duration_s = 0.1;
-    check(scene);
-    const auto alone = all_samples(shoot(scene, 1));
-    ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-    EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone) << tilt;
-  }
-}
-
 /// By how much the traces of hills differ from those of the same turned about the vertical by a right angle:
 /// x becomes y, and y becomes -x.
 double difference_when_turned(bool bent, double cfl) {

@@ -170,34 +170,5 @@ TEST(FittedAnisotropy, OfNextToNoneIsIsotropicRock) {
   }
 }
 
-// Proves (F14).
-TEST(FittedAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const bool hills : {false, true}) {
-    SCOPED_TRACE(hills ? "hills" : "sea");
-    auto scene = hills ? fitted_hills(120, 70) : fitted_sea(120, 80);
-    scene.survey.sources[0].position_m[0] = 303;
-    scene.survey.receivers_m = {{330, 150}, {462.5, 261.3}, {440, 313}, {40, 172}};
-    make_anisotropic(scene, 0.15, 0.05, hills ? 25 : 0);
-    scene.numerics.double_precision = hills;
-    scene.numerics.order = hills ? 7 : 5;
-    scene.numerics.time_order = hills ? 4 : 2;
-    scene.recording.duration_s = 0.04;
-    expect_same(scene);
-  }
-}
-
-// Proves (F14).
-TEST(FittedAnisotropy, GivesTheBitsOfOneProcessOnSeveral) {
-  auto scene = fitted_sea(90, 190);
-  make_anisotropic(scene, 0.15, 0.05, 25);
-  scene.survey.sources[0].position_m[0] = 203;
-  scene.survey.receivers_m = {{330, 130}, {262.5, 261.3}, {240, 333}, {40, 162}, {300, 301}, {33, 901}};
-  scene.recording.duration_s = 0.12;
-  check(scene);
-  const auto alone = all_samples(shoot(scene, 1));
-  ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
-}
-
 }  // namespace
 }  // namespace slipwave::solver

@@ -163,30 +163,6 @@ TEST(TiltedSpace, OfNextToNoneIsIsotropicRock) {
 }
 
 // Proves (O8).
-TEST(TiltedSpace, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const bool twice : {false, true}) {
-    SCOPED_TRACE(twice ? "double precision, fourth order in time" : "single precision");
-    auto scene = blocks(tilted_rocks, {54, 14, 20});
-    scene.recording.duration_s = 0.006;
-    scene.numerics.double_precision = twice;
-    scene.numerics.time_order = twice ? 4 : 2;
-    scene.survey.sources[0].position_m = {182, 51, 72};
-    scene.survey.receivers_m = {{190, 61, 80}, {172, 55, 83}};
-    expect_same(scene);
-  }
-}
-
-// Proves (O8).
-TEST(TiltedSpace, GivesTheBitsOfOneProcessOnSeveral) {
-  // The first of them hold water and isotropic rock only.
-  auto scene = blocks(tilted_rocks, {30, 22, 54});
-  scene.survey.receivers_m = {{111, 81, 120}, {42, 55, 223}};
-  make_isotropic(scene.model.medium, std::size_t(30 * 22 * 36));
-  const auto alone = samples_of(shoot(scene, 1));
-  EXPECT_TRUE(samples_of(shared_out(scene, 2)) == alone);
-}
-
-// Proves (O8).
 TEST(TiltedSpace, DoesNotDependOnWhichWayItIsShot) {
   const ThreadLimit one_thread(1);
   auto scene = blocks(tilted_rocks, {34, 30, 32});

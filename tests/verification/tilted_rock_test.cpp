@@ -134,25 +134,6 @@ Scene<2> blocks(std::int64_t nx, std::int64_t nz) {
   return scene;
 }
 
-// Proves (T4).
-TEST(TiltedRock, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const int time_order : {2, 4}) {
-    SCOPED_TRACE(std::to_string(time_order));
-    auto scene = blocks(100, 60);
-    scene.numerics.time_order = time_order;
-    scene.numerics.double_precision = time_order == 4;
-    scene.numerics.order = time_order == 4 ? 7 : 5;
-    expect_same(scene);
-  }
-}
-
-// Proves (T4).
-TEST(TiltedRock, GivesTheBitsOfOneProcessOnSeveral) {
-  const auto scene = blocks(60, 120);
-  const auto alone = all_samples(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
-}
-
 // Proves (V7).
 TEST(TiltedRock, DoesNotDependOnWhichWayItIsShot) {
   auto scene = blocks(110, 90);

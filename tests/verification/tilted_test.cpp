@@ -143,26 +143,6 @@ TEST(TiltedMeans, OfAClosedBodyScatterAsInTheClosedForm) {
   EXPECT_LT(relative_error(found, exact), 0.006);
 }
 
-// Proves (T5).
-TEST(TiltedMeans, GiveTheBitsOfThePlainExecutorInTiles) {
-  for (const int time_order : {2, 4}) {
-    SCOPED_TRACE(std::to_string(time_order));
-    auto scene = wedges();
-    ASSERT_GT(tilted_means(scene.model.medium), 200);
-    scene.numerics.time_order = time_order;
-    scene.numerics.double_precision = time_order == 4;
-    scene.numerics.order = time_order == 4 ? 7 : 5;
-    expect_same(scene);
-  }
-}
-
-// Proves (T5).
-TEST(TiltedMeans, GiveTheBitsOfOneProcessOnSeveral) {
-  const auto scene = wedges();
-  const auto alone = all_samples(shoot(scene, 1));
-  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
-}
-
 TEST(TiltedMeans, AreIsotropicWhereRockSlipsOrAttenuates) {
   auto scene = wedges();
   scene.model.fracture_sets = {{"all", {{{0, 1}, 0.3, 1000, 0}}}};
