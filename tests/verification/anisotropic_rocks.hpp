@@ -19,6 +19,13 @@ namespace slipwave::solver {
 /// Whether SLIPWAVE_LONG asks for the long form.
 inline bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
+/// Those scenes of a list that its form has: the short one leaves some out.
+template <class Case>
+std::vector<Case> of_this_form(std::vector<Case> cases) {
+  if (!long_form()) std::erase_if(cases, [](const Case& of) { return !of.in_short; });
+  return cases;
+}
+
 /// The rock with its axes turned so, in degrees.
 inline Material turned_by(Material rock, double tilt, double azimuth = 0, double rotation = 0) {
   rock.tilt = tilt, rock.azimuth = azimuth, rock.rotation = rotation;

@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "anisotropic_rocks.hpp"
 #include "anisotropic_stack.hpp"
-#include "lab.hpp"
-#include "model/anisotropy.hpp"
-#include "solver/simulation.hpp"
 #include "viscoelastic.hpp"
 
 namespace slipwave::solver {
@@ -23,11 +21,11 @@ inline AnisotropicStack::Layer layer_of(const Material& material) {
 
 /// The stiffness of rock that attenuates, by frequency: c11 and c33 as Qp says, c55 as Qs, and c13 between
 /// both (theory.md (Q9)), turned with its beds. Speeds hold at the peak.
-inline std::function<AnisotropicStack::ComplexPlane(Complex omega)> relaxed(
-    const Material& rock, const std::array<double, 2>& quality) {
+inline std::function<AnisotropicStack::ComplexPlane(Complex omega)> relaxed(const Material& rock,
+                                                                            const Qualities& quality) {
   const Mechanisms mechanisms(3, peak_hz / 5, 2.5 * peak_hz);
-  const auto p = standard_linear(mechanisms, quality[0], peak_hz),
-             s = standard_linear(mechanisms, quality[1], peak_hz);
+  const auto p = standard_linear(mechanisms, quality.p, peak_hz),
+             s = standard_linear(mechanisms, quality.s, peak_hz);
   const auto about_axis = upright_elasticity<2>(rock);
   const double dip = rock.tilt * std::numbers::pi / 180;
   return [=](Complex omega) -> AnisotropicStack::ComplexPlane {
@@ -50,7 +48,7 @@ inline std::function<AnisotropicStack::ComplexPlane(Complex omega)> relaxed(
   };
 }
 
-/// Flat layers in a box that absorbs, or has a free surface; all in units of cells of the step.
+/// Flat layers in a box that absorbs, or has a free surface; the short form is a smaller one.
 struct Stack {
   std::vector<Material> layers;
   std::vector<double> tops_m;
@@ -58,12 +56,11 @@ struct Stack {
   std::string kind = "force:0.6,0.8";
   double source_m = 0;
   std::vector<AnisotropicStack::Receiver> receivers;  // x from the source
-  double duration_s = 0.4;
+  double duration_s = long_form() ? 0.4 : 0.27;
   double cells = 24;  // per wavelength of the slowest wave at the peak
   int order = 5;
-  double cfl = 0.9;
-  double depth_m = 1000, width_m = 1200;
-  std::vector<std::array<double, 2>> qualities;  // qp and qs of the layers; none: elastic
+  double depth_m = long_form() ? 1000 : 500, width_m = long_form() ? 1200 : 620;
+  std::vector<Qualities> qualities;  // of the layers; none: elastic
 
   double spacing() const {
     double slowest = 1e9;
@@ -75,31 +72,28 @@ struct Stack {
     return 20 / std::ceil(20 * cells * peak_hz / slowest);
   }
   Scene<2> scene() const {
-    const double h = spacing();
+    const double h = spacing(), x = width_m / 2;
     Scene<2> scene;
     const Grid<2> grid{{std::llround(width_m / h), std::llround(depth_m / h)}, h, {0, 0}};
-    Medium<2> medium(grid);
-    medium[Property::epsilon] = medium[Property::delta] = Field<2>(grid);
-    if (std::any_of(layers.begin(), layers.end(), [](const Material& layer) { return layer.tilt != 0; }))
-      medium[Property::tilt] = Field<2>(grid);
-    for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto layer_of_cell = [&](const Index<2>& at) {
       std::size_t layer = 0;
-      for (const double top : tops_m) layer += grid.centre(1, grid.index(n)[1]) > top;
-      put(medium, std::size_t(n), layers[layer]);
-      if (qualities.empty()) continue;
-      for (const auto property : {Property::qp, Property::qs}) {
-        if (!medium.has(property)) medium[property] = Field<2>(grid, float(PropertyRow::infinite));
-        medium[property][std::size_t(n)] = float(qualities[layer][property == Property::qs]);
+      for (const double top : tops_m) layer += grid.centre(1, at[1]) > top;
+      return layer;
+    };
+    auto& medium = scene.model.medium;
+    medium = medium_of(grid, layers, [&](const Index<2>& at) { return layers[layer_of_cell(at)]; });
+    for (const auto property : {Property::qp, Property::qs}) {
+      if (!qualities.empty()) medium[property] = Field<2>(grid);
+      for (std::int64_t n = 0; n < grid.size() && !qualities.empty(); ++n) {
+        const auto& of = qualities[layer_of_cell(grid.index(n))];
+        medium[property][std::size_t(n)] = float(property == Property::qp ? of.p : of.s);
       }
     }
-    scene.model.medium = medium;
-    const double x = width_m / 2;
     scene.survey.sources = {{{x, source_m}, parse_mechanism<2>(kind), parse_wavelet("ricker:20"), 1e6}};
     for (const auto& at : receivers) scene.survey.receivers_m.push_back({x + at.x, at.z});
     scene.edges = edges_all(EdgeLaw::absorbing);
     if (free_surface) scene.edges[1][0] = EdgeLaw::free;
     scene.numerics.order = order;
-    scene.numerics.cfl = cfl;
     scene.recording = {{Component::vx, Component::vz}, duration_s, 0.001};
     set_attenuation(scene);
     check(scene);
@@ -114,56 +108,87 @@ struct Stack {
     stack.tops_m = tops_m, stack.free_surface = free_surface, stack.source_m = source_m;
     if (kind == "explosion") stack.explosion = 1;
     if (kind == "force:0.6,0.8") stack.force = {0.6, 0.8};
+    if (kind == "force:0,1") stack.force = {0, 1};
     if (kind == "moment:0,0,1") stack.couple = 1;
     return stack;
   }
   /// Of all traces together.
-  double error() const {
-    const auto gather = shoot(scene(), 1);
-    const auto exact_traces = exact().ricker(peak_hz, 0.001, std::size_t(gather.axis.count), receivers);
-    std::vector<double> found, wanted;
-    for (std::size_t n = 0; n < gather.traces.size(); ++n) {
-      const auto& samples = gather.traces[n].samples;
-      const auto& wave = exact_traces[n % receivers.size()][n / receivers.size()];
-      found.insert(found.end(), samples.begin(), samples.end());
-      for (const double value : wave) wanted.push_back(1e6 * value);
-    }
-    return relative_error(found, wanted);
+  double error() const;
+};
+
+/// Axes of layers that dip: places and motions along and across them.
+struct Dip {
+  double cosine, sine;
+  explicit Dip(double degrees)
+      : cosine(std::cos(degrees * std::numbers::pi / 180)),
+        sine(std::sin(degrees * std::numbers::pi / 180)) {}
+  Point<2> operator()(double along, double across) const {
+    return {cosine * along - sine * across, sine * along + cosine * across};
   }
 };
 
-/// Receivers at a distance in all directions but that along x.
-inline std::vector<AnisotropicStack::Receiver> around(double z, double distance_m) {
-  std::vector<AnisotropicStack::Receiver> all;
-  for (const double degrees : {0., 20., 40., 60., 75., 105., 150.}) {
-    const double angle = degrees * std::numbers::pi / 180;
-    all.push_back({distance_m * std::sin(angle), z + distance_m * std::cos(angle)});
-  }
-  return all;
+/// The error of all traces of vx and vz against a stack that dips so, of receivers in its frame, at a peak.
+inline double error_against(const AnisotropicStack& stack,
+                            const std::vector<AnisotropicStack::Receiver>& receivers, const Dip& dip,
+                            const Scene<2>& scene, double ricker_hz) {
+  const auto gather = shoot(scene, 1);
+  const auto exact =
+      stack.ricker(ricker_hz, gather.axis.interval_s, std::size_t(gather.axis.count), receivers);
+  std::vector<double> found, wanted;
+  for (std::size_t r = 0; r < receivers.size(); ++r)
+    for (std::size_t n = 0; n < std::size_t(gather.axis.count); ++n) {
+      const auto motion = dip(1e6 * exact[r][0][n], 1e6 * exact[r][1][n]);
+      for (const std::size_t row : {0, 1}) {
+        found.push_back(gather.traces[row * receivers.size() + r].samples[n]);
+        wanted.push_back(motion[row]);
+      }
+    }
+  return relative_error(found, wanted);
+}
+inline double Stack::error() const { return error_against(exact(), receivers, Dip(0), scene(), peak_hz); }
+
+/// One rock around a source, receivers at a distance in all directions but that along x.
+inline Stack full_space(const Material& rock, const std::string& kind = "force:0.6,0.8") {
+  Stack space;
+  space.layers = {rock}, space.kind = kind;
+  space.source_m = space.depth_m / 2 + space.spacing() / 2;
+  const double distance_m = long_form() ? 350 : 170;
+  for (const double degrees : {0., 20., 40., 60., 75., 105., 150.})
+    if (long_form() || degrees != 20) {
+      const double angle = degrees * std::numbers::pi / 180;
+      space.receivers.push_back(
+          {distance_m * std::sin(angle), space.source_m + distance_m * std::cos(angle)});
+    }
+  return space;
 }
 
 /// Two rocks that meet on a face, a source in the upper one.
 inline Stack two_rocks(const Material& over, const Material& under) {
   Stack stack;
-  stack.layers = {over, under}, stack.tops_m = {560}, stack.source_m = 400 + stack.spacing() / 2;
+  stack.layers = {over, under};
+  stack.tops_m = {560}, stack.source_m = 400 + stack.spacing() / 2;
   stack.receivers = {{250, 300}, {0, 480}, {300, 500}, {200, 640}, {-250, 800}};
+  if (long_form()) return stack;
+  stack.tops_m = {300}, stack.source_m = 200 + stack.spacing() / 2;
+  stack.receivers = {{150, 130}, {0, 250}, {180, 260}, {120, 360}, {-150, 420}};
   return stack;
 }
 
-/// A rock below a free surface.
+/// A rock below a free surface, or below water, in which an explosion is.
 inline Stack below_surface(const Material& rock) {
   Stack stack;
-  stack.layers = {rock}, stack.free_surface = true, stack.source_m = 100, stack.depth_m = 600;
+  stack.layers = {rock}, stack.free_surface = true, stack.source_m = 100,
+  stack.depth_m = long_form() ? 600 : 360;
   stack.receivers = {{250, 20}, {-150, 40}, {100, 300}, {300, 60}};
+  if (!long_form()) stack.receivers = {{170, 20}, {-110, 40}, {80, 220}, {190, 60}};
   return stack;
 }
-
-/// A rock below water, in which an explosion is.
 inline Stack below_water(const Material& rock) {
-  Stack stack;
-  stack.layers = {{1500, 0, 1000}, rock}, stack.tops_m = {200}, stack.free_surface = true;
-  stack.source_m = 100, stack.depth_m = 700, stack.kind = "explosion";
+  Stack stack = below_surface(rock);
+  stack.layers = {sea, rock}, stack.tops_m = {200}, stack.kind = "explosion",
+  stack.depth_m = long_form() ? 700 : 420;
   stack.receivers = {{250, 150}, {-150, 260}, {100, 400}, {300, 240}};
+  if (!long_form()) stack.receivers = {{150, 150}, {-90, 260}, {70, 310}, {120, 240}};
   return stack;
 }
 
@@ -171,37 +196,10 @@ inline Stack below_water(const Material& rock) {
 inline double order_below_surface(const Material& rock) {
   Stack coarse = below_surface(rock);
   coarse.cells = 12, coarse.order = 7;
-  coarse.receivers = {{250, 20}, {-150, 40}, {100, 300}};
+  coarse.receivers.pop_back();
   auto fine = coarse;
   fine.cells = 24;
   return std::log(coarse.error() / fine.error()) / std::log(coarse.spacing() / fine.spacing());
-}
-
-/// The largest vx of a shot's second half, as a share of that of the first, over so many steps.
-inline double late_share(Scene<2> scene, const std::string& wavelet, int steps) {
-  scene.survey.sources[0].wavelet = parse_wavelet(wavelet);
-  scene.recording.duration_s = steps * time_step_s(scene);
-  scene.recording.interval_s = 0.01;
-  const auto gather = shoot(scene, 1);
-  const auto& vx = gather.traces[0].samples;
-  double largest = 0, late = 0;
-  for (std::size_t n = 0; n < vx.size(); ++n)
-    (n < vx.size() / 2 ? largest : late) = std::max(n < vx.size() / 2 ? largest : late, std::abs(vx[n]));
-  return late / largest;
-}
-
-/// By what vz of a force along x here and vx of a force along z there, source and receiver exchanged, differ.
-inline double error_of_exchange(Scene<2> scene, const Point<2>& one, const Point<2>& other) {
-  scene.numerics.double_precision = true;
-  scene.recording.components = {Component::vx, Component::vz};
-  scene.recording.duration_s = 0.2;
-  const auto shot = [&](const Point<2>& from, const Point<2>& to, const std::string& kind) {
-    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<2>(kind);
-    scene.survey.receivers_m = {to};
-    return shoot(scene, 1);
-  };
-  const auto there = shot(one, other, "force:1,0"), back = shot(other, one, "force:0,1");
-  return relative_error(there.traces[1].samples, back.traces[0].samples);
 }
 
 }  // namespace slipwave::solver
