@@ -69,7 +69,7 @@ Scene<D> blocks(const std::vector<Material>& rocks, Cut cut) {
   scene.recording.components = {Component::vx, Component::vz, Component::p};
   if (D == 3) scene.recording.components.push_back(Component::vy);
   scene.numerics.zone_cells = 6;
-  set_times(scene, cut == Cut::columns ? (D == 2 ? 0.02 : 0.008) : 0.03);
+  set_times(scene, cut == Cut::columns ? (D == 2 ? 0.05 : 0.008) : 0.03);
   if (cut == Cut::rows) make_isotropic(scene.model.medium, std::size_t(scene.model.grid().size() * 3 / 5));
   return scene;
 }

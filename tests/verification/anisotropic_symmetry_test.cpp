@@ -33,16 +33,16 @@ Material in_level_plane(const Material& rock) {
   return {std::sqrt(c(1, 1) / rock.rho), std::sqrt(c(6, 6) / rock.rho), rock.rho};
 }
 
-/// Times of both scenes, and receivers in 2-D. In 2-D the sweeps of a step are others where the plane is not
-/// that of x and z, of second order in it: `cfl` is smaller there.
-Extruded recorded(Extruded both, double short_s, double long_s, const std::vector<Point<2>>& near) {
+/// Both scenes with their times and receivers, which the short form has closer to the source.
+Extruded recorded(Extruded both, double short_s, double long_s, const std::vector<Point<2>>& near,
+                  const std::vector<Point<2>>& far) {
+  const auto& points = long_form() ? far : near;
   both.flat.recording.duration_s = both.deep.recording.duration_s = long_form() ? long_s : short_s;
-  if (long_form()) return both;
-  both.flat.survey.receivers_m = near;
-  both.deep.survey.receivers_m.assign(near.size(), {2.5, 2.5, 2.5});
-  for (std::size_t n = 0; n < near.size(); ++n)
+  both.flat.survey.receivers_m = points;
+  both.deep.survey.receivers_m.assign(points.size(), {2.5, 2.5, 2.5});
+  for (std::size_t n = 0; n < points.size(); ++n)
     for (std::size_t axis = 0; axis < 2; ++axis)
-      both.deep.survey.receivers_m[n][std::size_t(both.axes[axis])] = near[n][axis];
+      both.deep.survey.receivers_m[n][std::size_t(both.axes[axis])] = points[n][axis];
   return both;
 }
 
@@ -65,9 +65,11 @@ Extruded level_slice(const std::array<int, 2>& axes, const Material& upper, cons
   both.deep.model.medium = medium_of(both.deep.model.grid(), {upper, lower}, [&](const Index<3>& at) {
     return rock_at(at[std::size_t(axes[1])], upper, lower);
   });
+  // In 2-D the sweeps of a step are others where the plane is not that of x and z, of second order in it.
   if (axes != std::array<int, 2>{0, 2}) both.flat.numerics.cfl = both.deep.numerics.cfl = 0.4;
   // Along y vectors of cells hold one each.
-  return recorded(both, axes[0] == 1 ? 0.07 : 0.09, 0.12, {{191, 43}, {262.5, 161.3}, {241, 83}, {211, 213}});
+  return recorded(both, axes[0] == 1 ? 0.07 : 0.09, 0.12, {{191, 43}, {262.5, 161.3}, {241, 83}, {211, 213}},
+                  {{101, 33}, {302.5, 201.3}, {420, 60}, {201, 313}});
 }
 /// Of rock that is tilted within it: along x, or along y.
 Extruded tilted_slice(const Material& upper, const Material& lower, double azimuth = 0) {
@@ -108,13 +110,8 @@ Extruded bent_slice(int along, bool hills, const EdgeLaws<2>& edges, int order, 
   // The smaller of both bounds.
   both.flat.numerics.cfl = 0.7;
   both.deep.numerics.cfl = 0.7 * stable_time_step_s(both.flat) / stable_time_step_s(both.deep);
-  const std::vector<Point<2>> far = {{101, 120}, {302.5, 201.3}, {420, 180}, {201, 313}, {330, 125}};
-  both.flat.survey.receivers_m = far;
-  both.deep.survey.receivers_m.assign(far.size(), {2.5, 2.5, 2.5});
-  for (std::size_t n = 0; n < far.size(); ++n)
-    both.deep.survey.receivers_m[n][std::size_t(along)] = far[n][0],
-    both.deep.survey.receivers_m[n][2] = far[n][1];
-  return recorded(both, 0.06, 0.1, {{191, 120}, {252.5, 171.3}, {211, 223}, {241, 125}});
+  return recorded(both, 0.06, 0.1, {{191, 120}, {252.5, 171.3}, {211, 223}, {241, 125}},
+                  {{101, 120}, {302.5, 201.3}, {420, 180}, {201, 313}, {330, 125}});
 }
 
 /// With loss, or with planes in a part of the rock.
