@@ -6,7 +6,9 @@
 
 #include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
+#include "model/cluster_edge.hpp"
 #include "model/coefficients.hpp"
+#include "model/fracture.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/gauges.hpp"
 
@@ -194,6 +196,18 @@ std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
   return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
 }
 
+/// Of each set of fractures whether its planes lie askew in any whole cell, and in any that its edge cuts.
+template <int D>
+std::vector<std::array<bool, 2>> askew_sets(const Model<D>& model) {
+  std::vector<std::array<bool, 2>> askew(model.fracture_sets.size());
+  if (anisotropic_cells(model.medium) == 0) return askew;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
+    if (const auto code = model.fracture[cell]; code > 0)
+      if (auto& any = askew[code - 1U][is_cut(model, cell)]; !any)
+        any = lie_askew(model.fracture_sets[code - 1U], model.medium, cell);
+  return askew;
+}
+
 template <int D>
 Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
   whole.subdomain = part;
@@ -210,6 +224,9 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
 
 template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
+  scene.subdomain.askew = askew_sets(scene.model);
+  for (auto& kinds : scene.subdomain.askew)
+    for (bool& any : kinds) any = largest_of(&ranks, any ? 1 : 0) > 0;
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
   scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
   scene.subdomain.anisotropic = largest_of(&ranks, anisotropic_cells(scene.model.medium) > 0 ? 1 : 0) > 0;

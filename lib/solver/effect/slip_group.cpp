@@ -44,6 +44,8 @@ SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, 
 template <int D, class Real>
 bool SlipGroup<D, Real>::lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene,
                                             const Layout<D>& layout) const {
+  if (const auto& sets = scene.subdomain.askew; !sets.empty())
+    return sets[places_.set()][places_.kind() == CellKind::cut];
   bool any = false;
   places_.each(layout, domain, scene.model, [&](std::size_t, std::size_t cell) {
     any = any || lie_askew(*set_, scene.model.medium, cell);
