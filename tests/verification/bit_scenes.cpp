@@ -329,7 +329,8 @@ BitScenes cut_cells() {
 /// Fractures on faces, at an order.
 Scene<2> faces(Scene<2> scene, int order) {
   make_short(scene, 0.05);
-  scene.survey.sources[0].position_m = {380, 261};
+  // Amid springs tractions begin before velocities are large enough for a number.
+  scene.survey.sources[0].position_m = {order == 11 ? 203. : 380., 261};
   scene.survey.sources[0].amplitude = 1e7;
   scene.slip_diary = order != 11;
   scene.numerics.order = order;

@@ -461,7 +461,7 @@ IndexRange TiledExecutor<D, Real>::reached(const StepTime& time, const IndexRang
 
 template <int D, class Real>
 void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& columns) {
-  if (!everywhere_) active_.mark(line, columns);
+  if (!everywhere_) active_.mark(line, columns, sweeps_.split());
 }
 
 /// Some steps of a sweep along z, of these columns or, in 3-D, lines.

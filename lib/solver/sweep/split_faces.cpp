@@ -149,6 +149,18 @@ bool SplitFaces<D, Real>::beside(int axis, std::int64_t line) const {
   return of_next < end;
 }
 
+template <int D, class Real>
+bool SplitFaces<D, Real>::at_rest(std::int64_t line, const IndexRange& columns) const {
+  for (int axis = 0; axis < D; ++axis) {
+    const auto [first, last] = find(axis, line, columns);
+    if (std::any_of(tractions_.begin() + std::ptrdiff_t(first * D),
+                    tractions_.begin() + std::ptrdiff_t(last * D),
+                    [](Real traction) { return traction != 0; }))
+      return false;
+  }
+  return true;
+}
+
 /// What the images gain from motion along the face, as at a free surface (E11), and from the spring.
 template <int D, class Real>
 void SplitFaces<D, Real>::put_images(std::size_t n) {

@@ -30,6 +30,8 @@ class SplitFaces {
   bool any(int axis) const;
   /// Whether any parts a cell of a line from its neighbours along the axis.
   bool beside(int axis, std::int64_t line) const;
+  /// Whether no face before these cells of a line retains a traction.
+  bool at_rest(std::int64_t line, const IndexRange& columns) const;
   /// Changes what a sweep over `scale` of the step has left in these columns of a line, whose faces before
   /// and behind are `lo` and `hi`. Only with `remember` the tractions advance, with the cell behind the face.
   void add(int axis, std::int64_t line, const IndexRange& columns, Real scale, InterfaceStates<Real> lo,
