@@ -123,10 +123,11 @@ class TurnedWave : public IncidentWave<3, Real> {
     const double apart = beside_ * time.dt_s, later = later_by(line);
     const double one = slowness_[0] * (grid_.origin_m[0] - at_m_[0]),
                  other = slowness_[0] * (grid_.end(0) - at_m_[0]);
-    for (const auto& series : series_of(0, line))
-      if (!series.is_zero(time.end_s() - later - std::max(one, other) - apart,
-                          time.end_s() - later - std::min(one, other) + apart))
-        return true;
+    for (std::size_t stage = 0; stage < series_.size(); ++stage)
+      for (const auto& series : series_of(stage, line))
+        if (!series.is_zero(time.end_s() - later - std::max(one, other) - apart,
+                            time.end_s() - later - std::min(one, other) + apart))
+          return true;
     return false;
   }
   bool values(const Clocks<3>& clocks, int, int, const Index<3>& line, std::int64_t x_first,
