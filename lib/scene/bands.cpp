@@ -97,11 +97,11 @@ int kind_of(const Medium<D>& medium, std::size_t cell) {
 /// Whether sweeps take the face between two cells for a strong interface.
 template <int D>
 bool strong_interface(const Medium<D>& medium, std::size_t one, std::size_t other) {
-  const auto differ = [](double z, double beyond) {
-    return z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z;
+  const auto apart = [&](Wave wave) {
+    return strong_interface_between(wave_impedance(medium, one, D - 1, wave),
+                                    wave_impedance(medium, other, D - 1, wave));
   };
-  return differ(wave_impedance(medium, one, D - 1, wave_p), wave_impedance(medium, other, D - 1, wave_p)) ||
-         differ(wave_impedance(medium, one, D - 1, wave_s), wave_impedance(medium, other, D - 1, wave_s));
+  return apart(wave_p) || apart(wave_s);
 }
 
 /// How many columns of a face between bands have a strong interface on it, as a share.

@@ -30,8 +30,7 @@ bool ends_free(const Domain<D>& domain, int along) {
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
   const auto differ = [&](const Field<D>& impedance) {
-    const double a = impedance(one), b = impedance(other);
-    return a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a);
+    return strong_interface_between(impedance(one), impedance(other));
   };
   for (const Wave wave : {wave_p, wave_s})
     for (const int axis : {D - 1, 0})

@@ -42,10 +42,9 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
 template <int D>
 bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
   for (const Wave wave : {wave_p, wave_s})
-    for (const int axis : {D - 1, 0}) {
-      const double z = domain.impedance(wave, axis)(one), beyond = domain.impedance(wave, axis)(other);
-      if (z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z) return true;
-    }
+    for (const int axis : {D - 1, 0})
+      if (strong_interface_between(domain.impedance(wave, axis)(one), domain.impedance(wave, axis)(other)))
+        return true;
   return false;
 }
 
