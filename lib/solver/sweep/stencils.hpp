@@ -209,7 +209,8 @@ typename Line::At extended_beyond(const Stencil<Side>& stencil, const Line& line
 /// The motion at an offset from a cell, extended beyond the ends of its stencil ((E10), (E11), (F13)). A line
 /// gives what is at a cell, and what its laws make of a mirror image.
 template <class Side, class Line>
-[[gnu::always_inline]] inline typename Line::At extended(const Stencil<Side>& stencil, const Line& line, int offset) {
+[[gnu::always_inline]] inline typename Line::At extended(const Stencil<Side>& stencil, const Line& line,
+                                                         int offset) {
   const bool below = offset < -stencil.low.cells;
   return below || offset > stencil.high.cells ? extended_beyond(stencil, line, offset, below)
                                               : line.at(offset);
