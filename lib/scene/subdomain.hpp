@@ -29,8 +29,7 @@ struct Subdomain {
   bool tilted = false;        // whether any part has rock whose axes are turned, in 3-D also any in bent rows
   bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
   bool has_void = false;      // whether any part has void cells
-  /// Of each set of fractures whether its planes lie askew (lie_askew()) in cells of any part: in whole ones,
-  /// and in those that its edge cuts.
+  /// Of several processes: askew_sets() of all parts.
   std::vector<std::array<bool, 2>> askew{};
   /// Of a fitted grid: side_speeds() of the whole model.
   std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};

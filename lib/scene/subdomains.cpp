@@ -196,7 +196,6 @@ std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
   return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
 }
 
-/// Of each set of fractures whether its planes lie askew in any whole cell, and in any that its edge cuts.
 template <int D>
 std::vector<std::array<bool, 2>> askew_sets(const Model<D>& model) {
   std::vector<std::array<bool, 2>> askew(model.fracture_sets.size());
@@ -241,6 +240,8 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
+template std::vector<std::array<bool, 2>> askew_sets(const Model<2>&);
+template std::vector<std::array<bool, 2>> askew_sets(const Model<3>&);
 template bool has_shear(const Medium<2>&);
 template bool has_shear(const Medium<3>&);
 template bool has_void(const Medium<2>&);

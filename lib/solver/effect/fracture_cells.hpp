@@ -36,8 +36,6 @@ class FractureCells {
   /// Cells that belong to the set, and all that are stored.
   std::int64_t cells() const { return cells_; }
   std::size_t stored() const { return stored_; }
-  std::size_t set() const { return set_; }
-  CellKind kind() const { return kind_; }
   std::int64_t memory_bytes() const {
     return std::int64_t(segments_.size() * sizeof(Segment) + starts_.size() * sizeof(std::size_t));
   }

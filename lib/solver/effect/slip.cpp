@@ -4,17 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/subdomains.hpp"
+
 namespace slipwave::solver {
 
 template <int D, class Real>
 Slip<D, Real>::Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
                     double unit)
     : state_(state), domain_(domain), dt_s_(dt_s), unit_(unit), correction_(scene.numerics.correction) {
+  const auto& of_all = scene.subdomain.askew;
+  const auto askew = of_all.empty() ? askew_sets(scene.model) : of_all;
   for (std::size_t set = 0; set < scene.model.fracture_sets.size(); ++set) {
     if (!slides(scene.model.fracture_sets[set])) continue;
     for (const auto kind : {CellKind::whole, CellKind::cut}) {
       if (kind == CellKind::cut && scene.model.fracture_share.empty()) continue;
-      SlipGroup<D, Real> group(state.layout, domain, scene, {set, kind}, dt_s, unit);
+      SlipGroup<D, Real> group(state.layout, domain, scene, {set, kind, askew[set][kind == CellKind::cut]},
+                               dt_s, unit);
       if (group.cells() == 0) continue;
       if (scene.slip_diary) diary_.emplace_back(std::size_t(group.stored_cells()));
       group.rest();

@@ -37,20 +37,8 @@ SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, 
       count_(places_.stored()) {
   if (of.kind == CellKind::cut) cut_.emplace(count_);
   planes_ = planes_of<D, Real>(set_->systems, unit);
-  fill(domain, scene, layout, dt_s);
+  fill(domain, scene, layout, of.askew, dt_s);
   choose_kernels(scene.numerics.correction);
-}
-
-template <int D, class Real>
-bool SlipGroup<D, Real>::lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene,
-                                            const Layout<D>& layout) const {
-  if (const auto& sets = scene.subdomain.askew; !sets.empty())
-    return sets[places_.set()][places_.kind() == CellKind::cut];
-  bool any = false;
-  places_.each(layout, domain, scene.model, [&](std::size_t, std::size_t cell) {
-    any = any || lie_askew(*set_, scene.model.medium, cell);
-  });
-  return any;
 }
 
 namespace {
@@ -141,7 +129,7 @@ double SlipGroup<D, Real>::held_share_of_all(const Point<D>& edge, double lambda
 
 template <int D, class Real>
 void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout,
-                              double dt_s) {
+                              bool askew, double dt_s) {
   const auto& model = scene.model;
   const auto& systems = set_->systems;
   using Tensor = SymmetricTensor<D, double>;
@@ -159,7 +147,6 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     slip_per_pa_.assign(count_, 0);
   }
   if (scene.slip_diary) mu_.assign(count_, 0);
-  const bool askew = lie_askew_anywhere(domain, scene, layout);
   if (askew) {
     responses_.assign(count_ * systems.size(), {});
     if (D == 2 || scene.slip_diary) stiffness_.assign(count_, {});

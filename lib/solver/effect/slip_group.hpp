@@ -22,10 +22,12 @@ namespace slipwave::solver {
 /// next step.
 enum class SlipAct { open, slip, begin };
 
-/// Cells of one fracture set (0-based) of the model.
+/// Cells of one fracture set (0-based) of the model, and whether its planes lie askew in the rock of any of
+/// them, in any process: then all of them slip one by one.
 struct CellsOfSet {
   std::size_t set;
   CellKind kind;
+  bool askew;
 };
 
 /// The cells of one fracture set, whole ones or those that its edge cuts: their places, constants and state.
@@ -75,15 +77,13 @@ class SlipGroup {
   void exchange(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to);
 
  private:
-  void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
+  void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, bool askew, double dt_s);
   void choose_kernels(SlipCorrection correction);
   /// What an edge that cuts a cell makes of its slip: mu of the part in place of that of the rock.
   double put_edge(const Model<D>& model, std::size_t place, std::size_t cell, double lambda, double mu);
   /// What of a held slip acts on the planes, for all systems (S39).
   double held_share_of_all(const Point<D>& edge, double lambda, double mu) const;
   void act_on(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  /// Whether planes lie askew in the rock of any cell: then all of them slip one by one.
-  bool lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout) const;
   /// Of all systems at a place, (S34), (S34a). Returns the modulus of each that its relaxation counts.
   std::vector<double> put_response(std::size_t place, const Elasticity<D>& stiffness);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
