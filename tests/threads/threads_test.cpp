@@ -9,6 +9,7 @@
 #include "model/marmousi.hpp"
 #include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
+#include "samples.hpp"
 #include "scene/subdomains.hpp"
 #include "solver/simulation.hpp"
 
@@ -41,12 +42,6 @@ Scene<2> scene_of(EdgeLaw sides, bool fractured) {
   scene.edges[1][0] = EdgeLaw::free;
   scene.recording = {{Component::vx, Component::vz, Component::p}, 0.025, 0.001};
   return scene;
-}
-
-std::vector<double> samples_of(const Gather& gather) {
-  std::vector<double> all;
-  for (const auto& trace : gather.traces) all.insert(all.end(), trace.samples.begin(), trace.samples.end());
-  return all;
 }
 
 /// All shots, so many at a time, with whole fields looked at now and then.

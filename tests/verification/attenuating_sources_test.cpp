@@ -3,32 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "cube.hpp"
+#include "sea_over_fractures.hpp"
 
 namespace slipwave::solver {
 namespace {
 
-constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
-
-/// Water over rocks with a cluster of fractures and a free surface.
-Scene<2> sea(std::int64_t nx = 180, std::int64_t nz = 100) {
-  Scene<2> scene;
-  scene.model.medium = uniform_medium(nx, nz, 5, rock);
-  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
-  for (std::int64_t k = 0; k < nz; ++k)
-    for (std::int64_t i = 0; i < nx; ++i) {
-      if (k < 20 + i / 40) put(scene.model.medium, {i, k}, water);
-      if (k > 90) put(scene.model.medium, {i, k}, soft);
-      if (k >= 50 && k < 60 && i % 150 >= 20 && i % 150 < 50) scene.model.fracture({i, k}) = 1;
-    }
-  scene.model.fracture_sets = {{"cracks", {{{0, 1}, 0.5, 1000, 0}}}};
-  scene.survey.sources = {
-      {{0.42 * double(nx) * 5, 160}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:40"), 1e9}};
-  scene.survey.receivers_m = {{0.3 * double(nx) * 5, 130}, {0.4 * double(nx) * 5, 261.3}, {40, 362}};
-  scene.edges = edges_all(EdgeLaw::absorbing);
-  scene.edges[1][0] = EdgeLaw::free;
-  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.06, 0.001};
-  return scene;
-}
+constexpr Rock rock{4500, 2250, 2500};
 
 /// Rock that attenuates strongly, in double precision, with steps that fit the samples.
 Scene<2> lossy(const std::vector<Source<2>>& sources) {
@@ -50,15 +30,6 @@ Scene<2> lossy(const std::vector<Source<2>>& sources) {
 
 Source<2> source_at(const Point<2>& at, double delay_s) {
   return {at, parse_mechanism<2>("explosion"), parse_wavelet("ricker:40"), 1e9, delay_s};
-}
-
-double largest_difference(const std::vector<double>& one, const std::vector<double>& other) {
-  double largest = 0, scale = 0;
-  for (std::size_t n = 0; n < one.size(); ++n) {
-    largest = std::max(largest, std::abs(one[n] - other[n]));
-    scale = std::max(scale, std::abs(other[n]));
-  }
-  return largest / scale;
 }
 
 // What sources put into the stress does not relax, however many they are and whenever they begin.
@@ -85,7 +56,7 @@ TEST(Attenuation, BeginsWithADelayedSource) {
 
 // Proves (Q7).
 TEST(Attenuation, OfInfiniteQIsNone) {
-  auto scene = sea();
+  auto scene = sea_over_fractures();
   scene.recording.duration_s = 0.05;
   const auto elastic = samples_of(shoot(scene, 1));
   for (const auto property : {Property::qp, Property::qs})

@@ -6,6 +6,7 @@
 
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
+#include "samples.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -105,11 +106,5 @@ class Cube {
   Sweeps<3, Real> sweeps_;
   std::vector<SweepFraction> splitting_;
 };
-
-inline std::vector<double> samples_of(const Gather& gather) {
-  std::vector<double> all;
-  for (const auto& trace : gather.traces) all.insert(all.end(), trace.samples.begin(), trace.samples.end());
-  return all;
-}
 
 }  // namespace slipwave::solver

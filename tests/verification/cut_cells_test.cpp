@@ -305,7 +305,7 @@ TEST(CutCells, OfShareOneAreWholeCellsToTheBit) {
   auto whole = scene, marked = scene;
   whole.model.fracture_share = {};
   std::fill(marked.model.fracture_share.begin(), marked.model.fracture_share.end(), 1.F);
-  EXPECT_TRUE(all_samples(shoot(marked, 1)) == all_samples(shoot(whole, 1)));
+  EXPECT_TRUE(samples_of(shoot(marked, 1)) == samples_of(shoot(whole, 1)));
 }
 
 }  // namespace

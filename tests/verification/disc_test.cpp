@@ -248,7 +248,7 @@ TEST(Discs, AreRockWithoutTheirCompliance) {
   auto whole = crossing_scene({22, 21, 24}), without = whole;
   whole.with_slip = false;
   remove_effect(without.model, ModelEffect::compliance);
-  EXPECT_TRUE(all_samples(shoot(without, 1)) == all_samples(shoot(whole, 1)));
+  EXPECT_TRUE(samples_of(shoot(without, 1)) == samples_of(shoot(whole, 1)));
 }
 
 // Proves (S30).

@@ -50,15 +50,8 @@ Scene<2> over_a_plane(double h) {
 }
 const FractureTrace<2> level{{201, 300}, {399, 300}};
 
-/// Largest difference of two records over the largest sample.
 double change_between(const Scene<2>& one, const Scene<2>& other) {
-  const auto a = all_samples(shoot(one, 1)), b = all_samples(shoot(other, 1));
-  double off = 0, all = 0;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    off = std::max(off, std::abs(a[n] - b[n]));
-    all = std::max(all, std::abs(b[n]));
-  }
-  return off / all;
+  return largest_difference(samples_of(shoot(one, 1)), samples_of(shoot(other, 1)));
 }
 
 TEST(FaceFriction, OfEachKindChangesTheTraces) {
@@ -133,8 +126,8 @@ std::vector<double> sent_out(const Fault& of, double h, bool row) {
   }
   auto whole = scene;
   whole.with_slip = false;
-  auto sent = all_samples(shoot(scene, 1));
-  const auto wave = all_samples(shoot(whole, 1));
+  auto sent = samples_of(shoot(scene, 1));
+  const auto wave = samples_of(shoot(whole, 1));
   for (std::size_t n = 0; n < sent.size(); ++n) sent[n] -= wave[n];
   return sent;
 }
@@ -153,7 +146,7 @@ double largest_traction() {
   probe.survey.receivers_m = {{250, 300}, {300, 300}, {350, 300}};
   probe.recording.components = {Component::sxz};
   double most = 0;
-  for (const double sample : all_samples(shoot(probe, 1))) most = std::max(most, std::abs(sample));
+  for (const double sample : samples_of(shoot(probe, 1))) most = std::max(most, std::abs(sample));
   return most;
 }
 

@@ -249,7 +249,7 @@ Scene<2> scene_with(const std::vector<SlipSystem<2>>& systems) {
   scene.recording = {{Component::vx, Component::vz, Component::p}, 0.12, 0.001};
   return scene;
 }
-std::vector<double> traces_of(const Scene<2>& scene) { return all_samples(shoot(scene, 1)); }
+std::vector<double> traces_of(const Scene<2>& scene) { return samples_of(shoot(scene, 1)); }
 
 /// Root mean square of the difference over that of the second.
 double difference(const std::vector<double>& a, const std::vector<double>& b) { return relative_error(a, b); }

@@ -99,8 +99,8 @@ TEST(Ranks, RecordAlongAWholeBoreholeWhatOneProcessDoes) {
   for (double z = 3; z < 950; z += 7) scene.survey.receivers_m.push_back({223.4, z});
   const auto part = subdomain_for(scene, scene.model.grid(), 1, 4);
   EXPECT_GT(part.exchanged, spread_of_a_tile(scene));
-  const auto alone = all_samples(shoot(scene, 1));
-  EXPECT_TRUE(all_samples(shared_out(scene, 4, 3)) == alone);
+  const auto alone = samples_of(shoot(scene, 1));
+  EXPECT_TRUE(samples_of(shared_out(scene, 4, 3)) == alone);
   // Where few receivers lie, boundaries keep away from them, and less is exchanged.
   scene.survey.receivers_m.resize(1);
   EXPECT_EQ(subdomain_for(scene, scene.model.grid(), 1, 4).exchanged, spread_of_a_tile(scene));
@@ -156,9 +156,9 @@ TEST(Ranks, ThatHoldAllRowsOfANeighbourRecordWhatOneProcessDoes) {
       for (double z = 3; z < 5. * double(rows); z += 7) scene.survey.receivers_m.push_back({123.4, z});
       EXPECT_TRUE(holds_all_of_a_neighbour(scene, count));
       ASSERT_TRUE(each_owns_its_part(scene, count));
-      const auto alone = all_samples(shoot(scene, 1));
+      const auto alone = samples_of(shoot(scene, 1));
       ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-      EXPECT_TRUE(all_samples(shared_out(scene, count, count == 3 ? 1 : 3)) == alone);
+      EXPECT_TRUE(samples_of(shared_out(scene, count, count == 3 ? 1 : 3)) == alone);
     }
 }
 
@@ -175,9 +175,9 @@ TEST(Ranks, ThatHoldAllRowsOfANeighbourDoSoInThreeDimensions) {
   scene.numerics.zone_cells = 8;
   EXPECT_TRUE(holds_all_of_a_neighbour(scene, 2));
   ASSERT_TRUE(each_owns_its_part(scene, 2));
-  const auto alone = all_samples(shoot(scene, 1));
+  const auto alone = samples_of(shoot(scene, 1));
   ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-  EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone);
+  EXPECT_TRUE(samples_of(shared_out(scene, 2)) == alone);
 }
 
 TEST(Ranks, ThatHoldFluidAloneRecordWhatOneProcessDoes) {
@@ -193,9 +193,9 @@ TEST(Ranks, ThatHoldFluidAloneRecordWhatOneProcessDoes) {
     scene.survey.sources[0].position_m = {203, 381};
     scene.survey.receivers_m = {{34.3, 5}, {444, 405}, {301, 777}};
     scene.recording.duration_s = 0.25;
-    const auto alone = all_samples(shoot(scene, 1));
+    const auto alone = samples_of(shoot(scene, 1));
     for (const int count : {2, 3})
-      EXPECT_TRUE(all_samples(shared_out(scene, count)) == alone) << count << " ranks, row " << floor;
+      EXPECT_TRUE(samples_of(shared_out(scene, count)) == alone) << count << " ranks, row " << floor;
   }
 }
 

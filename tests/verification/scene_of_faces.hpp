@@ -90,9 +90,9 @@ inline Scene<2> faulted() {
 /// Expects single precision to be as near to double precision as rounding leaves it.
 inline void expect_same_in_double_precision(Scene<2> scene) {
   scene.recording.duration_s = 0.3;
-  const auto single = all_samples(shoot(scene, 1));
+  const auto single = samples_of(shoot(scene, 1));
   scene.numerics.double_precision = true;
-  const auto precise = all_samples(shoot(scene, 1));
+  const auto precise = samples_of(shoot(scene, 1));
   // Stresses and velocities have scales of their own: each by the largest of its trace.
   const std::size_t a_trace = precise.size() / 15;
   for (std::size_t n = 0; n < precise.size(); n += a_trace) {

@@ -6,6 +6,7 @@
 
 #include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
+#include "samples.hpp"
 #include "scene/subdomains.hpp"
 #include "solver/simulation.hpp"
 
@@ -31,12 +32,6 @@ Gather shared_out(const Scene<D>& scene, int count, int threads = 1) {
     if (ranks.number() == 0) found = std::move(gather);
   });
   return found;
-}
-
-inline std::vector<double> all_samples(const Gather& gather) {
-  std::vector<double> all;
-  for (const auto& trace : gather.traces) all.insert(all.end(), trace.samples.begin(), trace.samples.end());
-  return all;
 }
 
 }  // namespace slipwave::solver

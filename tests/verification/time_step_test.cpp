@@ -4,36 +4,14 @@
 #include <random>
 
 #include "cube.hpp"
+#include "sea_over_fractures.hpp"
 #include "solver/shot_simulation.hpp"
 
 // What a time step is made of, and what its effects write.
 namespace slipwave::solver {
 namespace {
 
-constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
-
-/// Water over two rocks; fractures that take patches of rows, and some near an end that take whole rows.
-Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
-  Scene<2> scene;
-  scene.model.medium = uniform_medium(nx, nz, 5, rock);
-  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
-  for (std::int64_t k = 0; k < nz; ++k)
-    for (std::int64_t i = 0; i < nx; ++i) {
-      if (k < 20 + i / 40) put(scene.model.medium, {i, k}, water);
-      if (k > 90) put(scene.model.medium, {i, k}, soft);
-      const bool cluster = k >= 50 && k < 60 && i >= 120 && i < 150, at_end = k >= 70 && k < 73 && i < 20;
-      if (cluster) scene.model.fracture({i, k}) = 1;
-      if (at_end) scene.model.fracture({i, k}) = 2;
-    }
-  const SlipSystem<2> level{{0, 1}, 0.5, 1000, 0}, upright{{1, 0}, 0.2, 2000, 5};
-  scene.model.fracture_sets = {{"cracks", {level}}, {"block", {level, upright}}};
-  scene.survey.sources = {{{700, 160}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:40"), 1e9}};
-  scene.survey.receivers_m = {{560, 130}, {662.5, 261.3}, {620, 333}, {40, 362}};
-  scene.edges = edges_all(EdgeLaw::absorbing);
-  scene.edges[1][0] = EdgeLaw::free;
-  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.12, 0.001};
-  return scene;
-}
+constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000};
 
 // docs/solver.md shows these lists.
 TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
@@ -41,7 +19,7 @@ TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
     return ShotSimulation<2, float>(scene, 1, {}).time_step().text();
   };
   using Lines = std::vector<std::string>;
-  auto scene = sea();
+  auto scene = sea_over_fractures();
   scene.model.fracture_sets.clear();
   scene.model.fracture = {};
   EXPECT_EQ(list_of(scene),
@@ -52,7 +30,7 @@ TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
   acoustic.edges = edges_all(EdgeLaw::free);
   EXPECT_EQ(list_of(acoustic), (Lines{"sweep along x, 0.5", "sweep along z, 1", "sweep along x, 0.5",
                                       "source", "record", "source, after recording"}));
-  auto slip = sea();
+  auto slip = sea_over_fractures();
   slip.model.medium = uniform_medium(330, 120, 5, rock);
   slip.edges[1][0] = EdgeLaw::absorbing;
   slip.survey.sources = {{{0, 0}, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:40"), 1}};
@@ -77,7 +55,7 @@ unsigned changed(const State<2, float>& state, const std::vector<float>& before)
 
 TEST(Effects, WriteNothingButWhatTheyDeclare) {
   for (const char* mechanism : {"explosion", "force:1,0", "moment:0,0,1", "plane:0"}) {
-    auto scene = sea();
+    auto scene = sea_over_fractures();
     scene.model.medium = uniform_medium(330, 120, 5, rock);
     scene.edges[1][0] = EdgeLaw::absorbing;
     scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
