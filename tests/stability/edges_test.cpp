@@ -16,7 +16,7 @@ TEST_P(AbsorbingEdges, NeverFeedEnergyBack) {
     for (const int zone : {1, 3, 20}) {
       SCOPED_TRACE("order " + std::to_string(order) + ", zones of " + std::to_string(zone) + " cells");
       Lab<double>::Setup setup;
-      setup.medium = medium_named(GetParam(), long_form() ? 60 : 20);
+      setup.medium = medium_named(GetParam(), 20);
       setup.edges = all_edges(EdgeLaw::absorbing);
       setup.order = order;
       setup.zone_cells = zone;
@@ -28,7 +28,7 @@ TEST_P(AbsorbingEdges, BesideAFreeSurfaceNeverFeedEnergyBack) {
   for (const int order : {3, 5, 7}) {
     SCOPED_TRACE("order " + std::to_string(order));
     Lab<float>::Setup setup;
-    setup.medium = medium_named(GetParam(), long_form() ? 60 : 20);
+    setup.medium = medium_named(GetParam(), 20);
     setup.edges = all_edges(EdgeLaw::absorbing);
     setup.edges[1][0] = EdgeLaw::free;
     setup.order = order;
@@ -43,7 +43,7 @@ TEST_P(AbsorbingEdges, WithPmlDrainTheField) {
     for (const auto top : {EdgeLaw::absorbing, EdgeLaw::free}) {
       SCOPED_TRACE("order " + std::to_string(order) + (top == EdgeLaw::free ? ", free surface" : ""));
       Lab<float>::Setup setup;
-      setup.medium = medium_named(GetParam(), long_form() ? 60 : 16);
+      setup.medium = medium_named(GetParam(), 16);
       setup.edges = all_edges(EdgeLaw::absorbing);
       setup.edges[1][0] = top;
       setup.order = order;

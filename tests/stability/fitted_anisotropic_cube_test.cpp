@@ -98,7 +98,7 @@ class FittedAnisotropyInSpace : public ::testing::TestWithParam<int> {
     return edges;
   }
   const ThreadLimit one_thread_{1};
-  const int steps_ = long_form() ? 1000 : 30;
+  const int steps_ = long_form() ? 200 : 30;
 };
 
 // Proves (F16).
@@ -114,7 +114,8 @@ TEST_P(FittedAnisotropyInSpace, NeverAddsEnergy) {
                                  {order, 2, seed % 3 == 0 ? 0.6 : 1}, steps_);
         ++seed;
       }
-  if (long_form()) expect_no_growth<double>(medium(7, 5, true), all_edges(EdgeLaw::free), {5}, 20000);
+  if (long_form() && GetParam() == 0)
+    expect_no_growth<double>(medium(7, 5, true), all_edges(EdgeLaw::free), {5}, 20000);
 }
 
 // Proves (F16).
@@ -136,7 +137,7 @@ TEST_P(FittedAnisotropyInSpace, StaysBoundedInThePml) {
   for (int n = 0; n < first; ++n) lab.step();
   const double early = lab.energy();
   EXPECT_LT(early, begin);
-  for (int n = 0; n < (long_form() ? 8000 : 40); ++n) lab.step();
+  for (int n = 0; n < (long_form() ? 2000 : 40); ++n) lab.step();
   // Written so that NaN fails.
   EXPECT_TRUE(lab.energy() < 1.001 * early) << lab.energy() << ", it was " << early;
 }

@@ -75,9 +75,7 @@ const std::vector<std::string>& fitted_names() {
 
 class FittedEnergy : public ::testing::TestWithParam<std::string> {
  protected:
-  Medium<2> medium() const {
-    return long_form() ? fitted_named(GetParam(), 40, 88) : fitted_named(GetParam(), 20, 44);
-  }
+  Medium<2> medium() const { return fitted_named(GetParam(), 20, 44); }
   const ThreadLimit one_thread_{1};
   const int steps_ = long_form() ? 20000 : 600;
 };

@@ -248,6 +248,22 @@ void Lab<Real>::expect_no_growth(int steps, double rounding, double floor) {
   }
 }
 
+template <class Real>
+void Lab<Real>::expect_fall_in_the_long_run(int steps) {
+  double before = energy();
+  ASSERT_GT(before, 0);
+  const double lost_in_rounding = before * rounding<Real>();
+  for (int n = 1; n <= steps; ++n) {
+    step();
+    if (n % 1000 != 0) continue;
+    const double now = energy();
+    // Written so that NaN fails.
+    ASSERT_TRUE(now <= before + lost_in_rounding)
+        << "step " << n << ": the energy is " << now << ", a thousand steps ago it was " << before;
+    before = now;
+  }
+}
+
 template class Lab<float>;
 template class Lab<double>;
 

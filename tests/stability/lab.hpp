@@ -107,6 +107,9 @@ class Lab {
   /// Runs and expects that the energy never rises above the lowest value so far by more than `rounding` of
   /// it, and ends finite. Energies below `floor` are rounding itself.
   void expect_no_growth(int steps, double rounding, double floor = 0);
+  /// Runs and expects that each thousand steps leave less energy than there was: beside corrected surfaces
+  /// and interfaces (E11) it wavers from step to step once most of it has left.
+  void expect_fall_in_the_long_run(int steps);
 
  private:
   enum class Stress { of_waves, all };

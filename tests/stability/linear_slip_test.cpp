@@ -9,8 +9,8 @@
 namespace slipwave {
 namespace {
 
-int cells() { return long_form() ? 30 : 16; }
-int steps() { return long_form() ? 20000 : 80; }
+constexpr int cells() { return 16; }
+int steps() { return long_form() ? 4000 : 80; }
 
 /// Compliance times the shear modulus of ordinary rock, normal and tangential, and the time in which dashpots
 /// let the springs give way, in time steps.

@@ -12,7 +12,7 @@ template <class Real>
 void expect_bounded(const std::string& medium, int order, double cfl, EdgeLaw edges) {
   SCOPED_TRACE(medium + ", order " + std::to_string(order) + ", Courant " + std::to_string(cfl));
   typename Lab<Real>::Setup setup;
-  setup.medium = medium_named(medium, long_form() ? 24 : 18);
+  setup.medium = medium_named(medium, 18);
   setup.edges = all_edges(edges);
   setup.order = order;
   setup.cfl = cfl;

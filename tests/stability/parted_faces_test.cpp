@@ -12,8 +12,8 @@
 namespace slipwave {
 namespace {
 
-int cells() { return long_form() ? 40 : 28; }
-int steps() { return long_form() ? 20000 : 300; }
+constexpr int cells() { return 28; }
+int steps() { return long_form() ? 10000 : 300; }
 
 FractureSet<2> fractures(const std::vector<FractureTrace<2>>& traces, double normal, double tangential) {
   SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};

@@ -19,8 +19,8 @@
 namespace slipwave {
 namespace {
 
-int cells() { return long_form() ? 32 : 16; }
-int steps() { return long_form() ? 3000 : 100; }
+constexpr int cells() { return 16; }
+int steps() { return long_form() ? 600 : 100; }
 
 /// Expects that measure(lab) never rises by more than rounding of all energies that are about.
 template <class Real, class Measure>
