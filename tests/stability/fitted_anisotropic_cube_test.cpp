@@ -111,18 +111,18 @@ TEST_P(FittedAnisotropyInSpace, NeverAddsEnergy) {
         SCOPED_TRACE("seed " + std::to_string(seed) + " block " + std::to_string(block) +
                      (tilts ? " tilted" : " upright"));
         expect_no_growth<double>(medium(seed, block, tilts), all_edges(edge),
-                                 {order, 2, seed % 3 == 0 ? 0.6 : 1}, steps_);
+                                 {order, 2, seed % 3 == 0 ? 0.6 : 1}, steps_, 0);
         ++seed;
       }
   if (long_form() && GetParam() == 0)
-    expect_no_growth<double>(medium(7, 5, true), all_edges(EdgeLaw::free), {5}, 20000);
+    expect_no_growth<double>(medium(7, 5, true), all_edges(EdgeLaw::free), {5}, steps_, 20000);
 }
 
 // Proves (F16).
 TEST_P(FittedAnisotropyInSpace, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
   for (const int order : {5, 7}) {
-    expect_no_growth<float>(medium(5, 5, true), all_edges(EdgeLaw::free), {order}, steps_);
-    expect_no_growth<double>(medium(6, 5, true), all_edges(EdgeLaw::free), {order, 4, 2}, steps_ / 2);
+    expect_no_growth<float>(medium(5, 5, true), all_edges(EdgeLaw::free), {order}, steps_, 0);
+    expect_no_growth<double>(medium(6, 5, true), all_edges(EdgeLaw::free), {order, 4, 2}, steps_ / 2, 0);
   }
 }
 

@@ -77,7 +77,7 @@ class FittedEnergy : public ::testing::TestWithParam<std::string> {
  protected:
   Medium<2> medium() const { return fitted_named(GetParam(), 20, 44); }
   const ThreadLimit one_thread_{1};
-  const int steps_ = long_form() ? 20000 : 600;
+  static constexpr int steps_ = 600, long_run_ = 20000;
 };
 
 // Proves (E11a), (F1).
@@ -87,22 +87,23 @@ TEST_P(FittedEnergy, NeverRisesInDouble) {
       if (!long_form() && (order == 1 ? edge != EdgeLaw::free : order == 3 && edge != EdgeLaw::rigid))
         continue;
       const auto edges = edges_below(edge == EdgeLaw::absorbing ? EdgeLaw::free : edge, edge);
-      expect_no_growth<double>(medium(), edges, {order}, steps_);
+      expect_no_growth<double>(medium(), edges, {order}, steps_, long_run_);
     }
 }
 
 // Proves (F1).
 TEST_P(FittedEnergy, NeverRisesInFloat) {
   for (const auto& [order, edge] : {std::pair(5, EdgeLaw::free), std::pair(7, EdgeLaw::absorbing)})
-    expect_no_growth<float>(medium(), all_edges(edge), {order}, steps_);
+    expect_no_growth<float>(medium(), all_edges(edge), {order}, steps_, long_run_);
 }
 
 // Proves (F1).
 TEST_P(FittedEnergy, NeverRisesAtFourthOrderInTimeOrInSmallSteps) {
   for (const int order : {5, 7}) {
     for (const double cfl : {1., 2.})
-      expect_no_growth<double>(medium(), all_edges(EdgeLaw::free), {order, 4, cfl}, steps_ / 4);
-    expect_no_growth<double>(medium(), all_edges(EdgeLaw::free), {order, 2, 0.3}, steps_ / 2);
+      expect_no_growth<double>(medium(), all_edges(EdgeLaw::free), {order, 4, cfl}, steps_ / 4,
+                               long_run_ / 4);
+    expect_no_growth<double>(medium(), all_edges(EdgeLaw::free), {order, 2, 0.3}, steps_ / 2, long_run_ / 2);
   }
 }
 
@@ -121,9 +122,8 @@ TEST(FittedCubeEnergy, NeverRises) {
     for (const auto edge : {EdgeLaw::free, EdgeLaw::rigid}) {
       EdgeLaws<3> edges;
       for (int axis = 0; axis < 3; ++axis) edges[axis] = {edge, edge};
-      for (const int order : {3, 7})
-        expect_no_growth<double>(medium, edges, {order}, long_form() ? 4000 : 120);
-      expect_no_growth<float>(medium, edges, {5}, long_form() ? 4000 : 120);
+      for (const int order : {3, 7}) expect_no_growth<double>(medium, edges, {order}, 120, 4000);
+      expect_no_growth<float>(medium, edges, {5}, 120, 4000);
     }
 }
 

@@ -232,38 +232,6 @@ double Lab<Real>::energy_with_prestress() const {
   return sum(Stress::all) + (sweeps_->split() ? sweeps_->split()->stored_energy() : 0);
 }
 
-template <class Real>
-void Lab<Real>::expect_no_growth(int steps, double rounding, double floor) {
-  const double begin = energy();
-  ASSERT_GT(begin, 0);
-  double lowest = begin;
-  for (int n = 1; n <= steps; ++n) {
-    step();
-    const double now = energy();
-    // Written so that NaN fails.
-    ASSERT_TRUE(now <= lowest * (1 + rounding) + floor)
-        << "step " << n << ": the energy is " << now << ", it was down to " << lowest << " and began as "
-        << begin;
-    lowest = std::min(lowest, now);
-  }
-}
-
-template <class Real>
-void Lab<Real>::expect_fall_in_the_long_run(int steps) {
-  double before = energy();
-  ASSERT_GT(before, 0);
-  const double lost_in_rounding = before * rounding<Real>();
-  for (int n = 1; n <= steps; ++n) {
-    step();
-    if (n % 1000 != 0) continue;
-    const double now = energy();
-    // Written so that NaN fails.
-    ASSERT_TRUE(now <= before + lost_in_rounding)
-        << "step " << n << ": the energy is " << now << ", a thousand steps ago it was " << before;
-    before = now;
-  }
-}
-
 template class Lab<float>;
 template class Lab<double>;
 
