@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An effect and a record that slipwave does not have, as somebody else would add them: a class each, and no
+// other file.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "parallel/threads.hpp"
+#include "solver/build_step.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/record/record.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Drag on all that moves, dv/dt = -v/tau, half of it before a step ends and half after.
+class Drag : public Effect<2, double> {
+ public:
+  Drag(const Domain<2>& domain, double tau_s)
+      : tau_s_(tau_s), cells_(domain.grid.size()), rows_(std::size_t(domain.grid.shape[1])) {
+    std::iota(rows_.begin(), rows_.end(), 0);
+  }
+  EffectDeclaration declaration() const override {
+    // Where half sweeps are merged, it would act half a step late, and be of first order.
+    return {.acts_on = ActsOn::rows, .reads = all_velocities<2>, .writes = all_velocities<2>};
+  }
+  std::string name() const override { return "drag"; }
+  std::int64_t cells() const override { return cells_; }
+  std::span<const std::int64_t> rows() const override { return rows_; }
+  void apply(const StepTime& time, const RowFields<double>& fields, const IndexRange& columns) override {
+    const double left = std::exp(-time.dt_s / 2 / tau_s_);
+    for (const int velocity : {0, 1})
+      for (auto column = columns.first; column < columns.last; ++column)
+        fields.field(velocity)[column] *= left;
+  }
+  void apply_after_record(const StepTime& time, const RowFields<double>& fields,
+                          const IndexRange& columns) override {
+    apply(time, fields, columns);
+  }
+
+ private:
+  double tau_s_;
+  std::int64_t cells_;
+  std::vector<std::int64_t> rows_;
+};
+
+/// A record of velocities along x, of one row at the end of one step.
+class OneRow : public Record<2, double> {
+ public:
+  OneRow(std::int64_t row, std::int64_t step, std::int64_t columns)
+      : row_(row), step_(step), velocities(std::size_t(columns)) {}
+  bool reads(const StepTime& time, std::int64_t row) const override {
+    return time.step == step_ && row == row_;
+  }
+  Box box() const override { return {{row_, row_ + 1}, {0, std::int64_t(velocities.size())}}; }
+  void read(const StepTime& time, const RowFields<const double>& fields, const IndexRange& cells) override {
+    if (!reads(time, fields.row)) return;
+    for (auto column = cells.first; column < cells.last; ++column)
+      velocities[std::size_t(column)] = fields.field(0)[column];
+  }
+
+ private:
+  std::int64_t row_, step_;
+
+ public:
+  std::vector<double> velocities;
+};
+
+constexpr double length_m = 480, vp = 3000, tau_s = 0.1;
+constexpr double wave_number = 2 * std::numbers::pi / length_m;
+
+/// A standing P wave along x between rigid walls, in cells of `spacing_m`, with drag.
+class DraggedWave {
+ public:
+  DraggedWave(double spacing_m, const Tiling& tiling) : scene_(scene_of(spacing_m, tiling)) {
+    StepBuilder<2, double> builder{scene_, domain_, state_, dt_s_};
+    effects_.push_back(std::make_unique<Drag>(domain_, tau_s));
+    step_ = std::make_unique<TimeStep<2, double>>(builder.time_step(sweeps_, effects_, {&record_}, steps()));
+    executor_ = builder.executor(sweeps_, *step_, nullptr);
+    // A step begins with what comes after recording.
+    const double begun = std::exp(-dt_s_ / 2 / tau_s);
+    for (std::int64_t k = 0; k < shape()[1]; ++k)
+      for (std::int64_t i = 0; i < shape()[0]; ++i) state_.field_row({0, k}, 0)[i] = begun * standing(i);
+    executor_->fields_changed();
+    executor_->run(0, steps(), {});
+  }
+  /// By what the closed form is missed at the end, as a share of the wave that began.
+  double error() const {
+    // q'' + q'/tau + (vp k)^2 q = 0.
+    const double t = double(steps()) * dt_s_, half = 1 / (2 * tau_s);
+    const double omega = std::sqrt(std::pow(vp * wave_number, 2) - half * half);
+    const double left = std::exp(-half * t) * (std::cos(omega * t) - half / omega * std::sin(omega * t));
+    double sum = 0, all = 0;
+    for (std::int64_t i = 0; i < shape()[0]; ++i) {
+      sum += std::pow(record_.velocities[std::size_t(i)] - left * standing(i), 2);
+      all += std::pow(standing(i), 2);
+    }
+    return std::sqrt(sum / all);
+  }
+  const std::vector<double>& velocities() const { return record_.velocities; }
+
+ private:
+  static Scene<2> scene_of(double spacing_m, const Tiling& tiling) {
+    Scene<2> scene;
+    scene.model.medium = Medium<2>(Grid<2>{{std::llround(length_m / spacing_m), 12}, spacing_m, {0, 0}});
+    for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
+      put(scene.model.medium, cell, {vp, 1700, 2300});
+    scene.edges[0] = {EdgeLaw::rigid, EdgeLaw::rigid};
+    scene.edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
+    scene.numerics.tiling = tiling;
+    return scene;
+  }
+  const Index<2>& shape() const { return domain_.grid.shape; }
+  std::int64_t steps() const { return std::llround(0.3 / dt_s_); }
+  double standing(std::int64_t i) const {
+    return std::sin(wave_number * (double(i) + 0.5) * domain_.grid.spacing_m);
+  }
+
+  Scene<2> scene_;
+  double dt_s_ = time_step_s(scene_);
+  Domain<2> domain_ = make_domain(scene_.model.medium, scene_.edges, 0);
+  State<2, double> state_ = make_filled_state<2, double>(domain_, scene_.model.medium, dt_s_);
+  Sweeps<2, double> sweeps_{state_, domain_, scene_.numerics.order};
+  Effects<2, double> effects_;
+  OneRow record_{shape()[1] / 2, steps() - 1, shape()[0]};
+  std::unique_ptr<TimeStep<2, double>> step_;
+  std::unique_ptr<Executor> executor_;
+};
+
+TEST(MadeUpEffect, IsAppliedAsItsClosedFormSays) {
+  const double coarse = DraggedWave(10, {}).error(), fine = DraggedWave(5, {}).error();
+  EXPECT_LT(coarse, 0.0005) << fine;
+  // Of second order.
+  EXPECT_LT(fine, coarse / 3.5);
+}
+
+TEST(MadeUpEffect, GivesTheSameBitsPlainlyAndInTiles) {
+  Tiling plain, narrow;
+  plain.plain = true;
+  narrow.steps = 3, narrow.stripe_cells = 16;
+  const auto expected = DraggedWave(5, plain).velocities();
+  EXPECT_EQ(DraggedWave(5, narrow).velocities(), expected);
+  const ThreadLimit one_thread(1);
+  EXPECT_EQ(DraggedWave(5, {}).velocities(), expected);
+}
+
+}  // namespace
+}  // namespace slipwave::solver
