@@ -119,7 +119,7 @@ inline EdgeLaws<2> edges_below(EdgeLaw top, EdgeLaw others) {
   return edges;
 }
 
-/// What is known to hold of a regular grid; the long form goes on for `long_run` steps.
+/// What is known to hold of a regular grid; the long form continues for `long_run` steps.
 template <class Real, int D>
 void expect_no_growth(const Medium<D>& medium, const EdgeLaws<D>& edges, const Numbers& numbers, int steps,
                       int long_run) {

@@ -28,7 +28,6 @@ class Drag : public Effect<2, double> {
     std::iota(rows_.begin(), rows_.end(), 0);
   }
   EffectDeclaration declaration() const override {
-    // Where half sweeps are merged, it would act half a step late, and be of first order.
     return {.acts_on = ActsOn::rows, .reads = all_velocities<2>, .writes = all_velocities<2>};
   }
   std::string name() const override { return "drag"; }

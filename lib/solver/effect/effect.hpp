@@ -19,7 +19,6 @@ enum class ActsOn {
   nothing,         // it acts within sweeps, or not at all
   fracture_cells,  // there the two half sweeps along x round the end of a step stay apart
   rows,            // all cells of rows(): there, too
-  all_cells,       // where the two half sweeps are merged into one, on what that one leaves: of first order
 };
 
 /// What an effect does in a time step: all that executors know of it. Fields are sets of

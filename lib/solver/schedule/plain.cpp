@@ -88,7 +88,6 @@ template <int D, class Real>
 void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) {
   using Cells = typename TimeStep<D, Real>::Cells;
   const IndexRange all{0, state_.layout.shape()[0]};
-  const auto fields = state_.row_fields(row);
   const auto patches = step_.patches().of(row);
   const RowFields<Real> copy{row, copy_.data() + Layout<D>::lead, copy_pitch_};
   StripeBoundary<Real> none{};
@@ -100,8 +99,6 @@ void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) 
   for (const auto& patch : patches) sweeps_.along_copy(copy, patch.blocks, true, half_, none, work_);
 
   sweeps_.along_x(row, all, 2 * half_, none, work_);
-  step_.apply(time, Cells::merged, fields, all);
-  step_.apply_after_record(time, Cells::merged, fields, all);
   for (const auto& patch : patches) sweeps_.put(copy, patch.cells);
 }
 

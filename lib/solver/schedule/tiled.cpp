@@ -596,11 +596,6 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
       sweep_beside_patches(time, line, first, 2 * stage.fraction, boundary, worker);
     else
       along_x(time, line, first, 2 * stage.fraction, boundary, worker);
-    if (step_.acts_on(Cells::merged))
-      effects([&] {
-        step_.apply(time, Cells::merged, fields, first);
-        step_.apply_after_record(time, Cells::merged, fields, first);
-      });
   }
   if (copy) put_patches(second, *copy);
 }

@@ -33,15 +33,14 @@ TimeStep<D, Real>::TimeStep(const Layout<D>& layout, double dt_s, std::vector<En
   }
   for (const auto& entry : entries_)
     if (const auto* apply = std::get_if<Apply<D, Real>>(&entry))
-      for (const auto cells : {Cells::split, Cells::merged, Cells::patch})
+      for (const auto cells : {Cells::split, Cells::patch})
         if (acts_on(apply->effect->declaration().acts_on, cells))
           acting_[apply->after_record][std::size_t(cells)].push_back(apply->effect);
 }
 
 template <int D, class Real>
 bool TimeStep<D, Real>::acts_on(ActsOn where, Cells cells) {
-  if (cells == Cells::split) return where != ActsOn::nothing;
-  return where == (cells == Cells::merged ? ActsOn::all_cells : ActsOn::fracture_cells);
+  return cells == Cells::split ? where != ActsOn::nothing : where == ActsOn::fracture_cells;
 }
 
 template <int D, class Real>

@@ -69,11 +69,9 @@ class TimeStep {
   }
   const Patches<D>& patches() const { return patches_; }
 
-  /// The kind of cells for the effects at the end of a step: of a split row, of a row whose half
-  /// sweeps are merged, of a patch of such a row.
-  enum class Cells { split, merged, patch };
-  /// Whether any effect acts on such cells.
-  bool acts_on(Cells cells) const { return !acting_[0][std::size_t(cells)].empty(); }
+  /// The kind of cells for the effects at the end of a step: of a row whose half sweeps stay apart, of a
+  /// patch of one where they are merged.
+  enum class Cells { split, patch };
   /// The effects before the records, in order.
   void apply(const StepTime& time, Cells of, const RowFields<Real>& fields, const IndexRange& cells) const {
     for (auto* effect : acting_[0][std::size_t(of)]) effect->apply(time, fields, cells);
@@ -128,7 +126,7 @@ class TimeStep {
   bool all_needed_;
   std::int64_t steps_;
   const Progress* progress_ = nullptr;
-  std::array<std::array<std::vector<Effect<D, Real>*>, 3>, 2> acting_;  // [after recording][Cells], in order
+  std::array<std::array<std::vector<Effect<D, Real>*>, 2>, 2> acting_;  // [after recording][Cells], in order
   std::array<std::vector<char>, std::size_t(most_in_progress)> split_rows_;  // [step in progress][row]
 };
 
