@@ -392,6 +392,45 @@ Report report_of(const Plan<D>& plan) {
   return report;
 }
 
+namespace {
+
+/// The single fracture, a compliant one, that lies in the cells of which a source takes its place; null:
+/// none.
+template <int D>
+const FractureSet<D>* fracture_at(const Model<D>& model, const Point<D>& source_m) {
+  const auto& grid = model.grid();
+  // A source is spread over the cells whose centres are nearest to it.
+  constexpr double nearly_half = 0.499;
+  for (int corner = 0; corner < 1 << D; ++corner) {
+    Point<D> at = source_m;
+    for (int axis = 0; axis < D; ++axis)
+      at[std::size_t(axis)] += ((corner >> axis & 1) != 0 ? nearly_half : -nearly_half) * grid.spacing_m;
+    const auto code = model.fracture[std::size_t(grid.flat(cell_of(grid, at)))];
+    if (code == 0) continue;
+    const auto& set = model.fracture_sets[code - 1U];
+    if (!set.traces.empty() && !set.on_faces && gives(set)) return &set;
+  }
+  return nullptr;
+}
+
+/// The first source in the cells of a fracture: what the fracture answers to it is not known there.
+template <int D>
+std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
+  if (scene.model.fracture.empty()) return std::nullopt;
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
+    for (const auto* source : scene.survey.sources_of(shot)) {
+      const auto* set = point_injection(*source) ? fracture_at(scene.model, source->position_m) : nullptr;
+      if (!set) continue;
+      return "the source of shot " + std::to_string(shot) + " lies in cells of the fracture '" + set->name +
+             "': what it answers may be half of what it should be. Move the source away by a cell, or use "
+             "smaller "
+             "cells";
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
 template <int D>
 std::vector<std::string> warnings(const Scene<D>& scene) {
   const double highest = highest_frequency_hz(scene.survey);
@@ -408,13 +447,16 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
                         shown(medium.grid().spacing_m * cells / fewest_cells, 2) + " m (" +
                         shown(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost) or --error");
   };
+  const auto in_a_fracture = source_in_a_fracture(scene);
   if (scene.numerics.bands.empty()) {
     warn(scene.model.medium, time_step_s(scene));
+    if (in_a_fracture) sentences.push_back(*in_a_fracture);
     return sentences;
   }
   const auto bands = scenes_of_bands(scene);
   const double step_s = time_step_s(bands.front());
   for (const auto& medium : media_of_bands(bands)) warn(medium, step_s);
+  if (in_a_fracture) sentences.push_back(*in_a_fracture);
   if (const double steps = scene.recording.duration_s / step_s;
       scene.numerics.order > 5 && steps > steps_without_gain)
     sentences.push_back("bands may slowly gain energy at order " + std::to_string(scene.numerics.order) +

@@ -53,6 +53,22 @@ TEST_F(ShootBadInput, AFullDiskIsSaidInOneLine) {
   EXPECT_EQ(files(), before);
 }
 
+TEST_F(ShootBadInput, ASourceInTheCellsOfAFractureIsAWarning) {
+  done("sw-layers --size 200x200 --step 5 --layer 0:3000:1700:2300 -o rock.nc");
+  const auto warned = [&](const std::string& fracture, const std::string& depth) {
+    done("sw-fracture rock.nc --segment 50,100:150,100 " + fracture + " --name crack -o cracked.nc");
+    const Ran ran = run("sw-shoot cracked.nc --source 100," + depth +
+                        " --wavelet ricker:20 --time 0.02 --receivers 100,20 -o cracked.sgy");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.err.find("warning: the source of shot 1 lies in cells of the fracture 'crack'") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(warned("--compliance 1e-10,3e-10", "97"));
+  EXPECT_TRUE(warned("--compliance 1e-10,3e-10", "104"));
+  EXPECT_FALSE(warned("--compliance 1e-10,3e-10", "85"));
+  EXPECT_FALSE(warned("--compliance 1e-10,3e-10 --faces", "97"));
+}
+
 TEST_F(ShootBadInput, WavesTooShortForTheGridAreAWarningThatSaysTheCost) {
   const std::string line = shoot + "--source 100,50 --wavelet ricker:60 --receivers 3,3 --time 0.1 ";
   const Ran ran = run(line);
