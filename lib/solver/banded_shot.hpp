@@ -26,7 +26,8 @@ class BandedShot {
   void serialize(Archive& archive);
   Gather take_gather();
   ShotReport report() const;
-  /// Of all bands together.
+  /// These figures are of all bands together: the shares of entries are means weighted by the cells of the
+  /// bands, cells and bytes are sums, and building_bytes() is the largest of any band.
   std::vector<PlannedEntry> planned() const;
   std::int64_t interface_stencil_cells() const;
   std::int64_t memory_bytes() const;

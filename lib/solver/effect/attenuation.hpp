@@ -15,7 +15,8 @@ namespace slipwave::solver {
 /// Every so many steps stress relaxes: in steps of second order every other one, which keeps it cheap, in
 /// those of fourth order, which are long, in each.
 inline int relaxation_steps(const Numerics& numerics) { return numerics.time_order == 2 ? 2 : 1; }
-/// Of a scene that attenuates; it keeps a reference to its medium.
+/// Returns the relaxation of a scene that attenuates, over the steps of relaxation_steps(). The result keeps
+/// a reference to the scene's medium.
 template <int D>
 StepwiseRelaxation<D> relaxation_by_steps(const Scene<D>& scene, double dt_s) {
   return {scene.model.medium, scene.attenuation->mechanisms, relaxation_steps(scene.numerics) * dt_s};
@@ -59,7 +60,8 @@ class RelaxingStress : public Effect<D, Real> {
   }
   void find_segments(const Domain<D>& domain, const Medium<D>& medium);
   void fill_shares(const Domain<D>& domain, const Medium<D>& medium, const StepwiseRelaxation<D>& relaxation);
-  /// Of the medium that sweeps advance.
+  /// Fills axes_ with what relaxation along the axes of rock needs in the cells of segments; `medium` is the
+  /// one that sweeps advance.
   void fill_axes(const Domain<D>& domain, const Medium<D>& medium);
   /// How the cells of a block relax, of which some attenuate.
   Relaxing what_relaxes_in(const Domain<D>& domain, const Medium<D>& medium, std::int64_t line,

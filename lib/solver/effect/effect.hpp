@@ -14,7 +14,7 @@
 
 namespace slipwave::solver {
 
-/// Where an effect acts on the fields at the end of a step.
+/// The values say where an effect acts on the fields at the end of a step.
 enum class ActsOn {
   nothing,         // it acts within sweeps, or not at all
   fracture_cells,  // there the two half sweeps along x round the end of a step stay apart
@@ -49,7 +49,7 @@ class Effect : public SweepFilter<D, Real> {
   virtual std::string name() const = 0;
   /// Cells it works on.
   virtual std::int64_t cells() const = 0;
-  /// The same, for each of its components.
+  /// Returns the name of each of its components and the number of cells that it works on.
   virtual std::vector<EffectShare> shares() const { return {{name(), cells()}}; }
   /// Rows of ActsOn::rows, ascending.
   virtual std::span<const std::int64_t> rows() const { return {}; }

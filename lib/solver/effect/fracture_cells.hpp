@@ -14,12 +14,12 @@ namespace slipwave::solver {
 /// Which cells of a fracture set: all, those that are in it whole, those that its edge cuts.
 enum class CellKind { all, whole, cut };
 
-/// Where the cells of one fracture set are stored: those of a row form segments of whole vectors, in which
-/// cells of other sets or none may stand among them.
+/// This list says where the cells of one fracture set are stored: those of a row form segments of whole
+/// vectors, in which cells of other sets or none may stand among them.
 template <int D>
 class FractureCells {
  public:
-  /// Of set number `set` (0-based) of the model.
+  /// Lists the cells of set number `set` (0-based) of the model.
   FractureCells(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model, std::size_t set,
                 CellKind kind = CellKind::all);
 
@@ -28,7 +28,7 @@ class FractureCells {
     std::int64_t first, last;
     std::size_t place;
   };
-  /// Of that row, ascending.
+  /// Returns the segments of that row, ascending.
   std::span<const Segment> segments(std::int64_t line) const {
     return {segments_.data() + starts_[std::size_t(line)],
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};

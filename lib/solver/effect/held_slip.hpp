@@ -16,15 +16,15 @@ namespace slipwave::solver {
 template <int D, class Real>
 class HeldSlip {
  public:
-  /// Of so many cells, none of them cut.
+  /// Makes room for so many cells, none of them cut.
   explicit HeldSlip(std::size_t cells);
   /// Describes a cell that an edge cuts, in rock with these Lame parameters. `held` is what of the held
   /// stress acts on the planes (S39), `edge` the normal of the edge.
   void put(std::size_t place, double share, double held, const Point<D>& edge, double lambda, double mu);
 
-  /// Of n cells from `place` on, with components of the stress `pitch` apart: calls act(stress, pitch) with
-  /// those of the parts that slip and makes of what it changes that of the cells. With `as_whole` the change
-  /// is taken over as it is.
+  /// Applies act(stress, pitch, place, count) to the n cells from `place` on, in pieces; components of the
+  /// stress are `pitch` apart. It gets the stress of the parts that slip, and the change of that is made one
+  /// of the stress of the cells. With `as_whole` the change is taken over as it is.
   template <class Act>
   void apply(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n, bool as_whole,
              const Act& act) {

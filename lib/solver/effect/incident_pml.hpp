@@ -8,7 +8,7 @@
 
 namespace slipwave::solver {
 
-/// Of plane-wave scenes: its outermost cells hold the incident wave.
+/// Returns the settings of the PML in plane-wave scenes: its outermost cells hold the incident wave.
 template <int D>
 PmlSettings pml_of_plane_wave(const Scene<D>& scene);
 

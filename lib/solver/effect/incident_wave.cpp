@@ -196,7 +196,7 @@ class Column {
     pml_->serialize(archive);
     store();
   }
-  /// Of all fields after that many sweeps along z, one field row after another of cells().
+  /// Returns all fields after that many sweeps along z, one field row after another of cells() values each.
   const Real* fields(std::int64_t sweeps_made) const {
     return slots_[std::size_t(sweeps_made) % slots_.size()].data();
   }

@@ -27,9 +27,9 @@ template <int D>
 class SweepClocks {
  public:
   SweepClocks(std::vector<SweepFraction> sweeps, double dt_s);
-  /// Of fields that such a sweep begins with.
+  /// Returns the clocks of fields that such a sweep begins with.
   Clocks<D> before(const SweepTime& time) const;
-  /// Of fields that it leaves, when it is over such a fraction of the step.
+  /// Returns the clocks of fields that it leaves, when it has covered such a fraction of the step.
   Clocks<D> after(const SweepTime& time, double fraction) const;
   /// Sweeps of a step along the last axis.
   std::int64_t along_last() const { return along_last_; }

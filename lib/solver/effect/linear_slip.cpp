@@ -86,7 +86,8 @@ Tensor<D> strain_of(const Tensor<D>& stress, const Rock<D>& of) {
   return strain;
 }
 
-/// Of a strain along the normal of planes, which are level or upright where rock is anisotropic.
+/// Returns the modulus of a strain along the normal of planes, which are level or upright where rock is
+/// anisotropic.
 template <int D>
 double modulus_across(const Point<D>& normal, const Elasticity<D>& rock) {
   return std::abs(normal[D - 1]) > 0.5 ? rock(3, 3) : rock(1, 1);

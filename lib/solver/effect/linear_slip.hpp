@@ -9,7 +9,8 @@
 
 namespace slipwave::solver {
 
-/// Where planes give way by so many times what the rock does, whatever the stress, it is next to none.
+/// Ratio of the strain of fracture planes to that of the rock, under any stress, above which a cell carries
+/// next to no stress.
 constexpr double softness_without_stress = 100;
 
 /// Cells of the computed grid, ascending, where springs of clusters do, without dashpots: it takes two
@@ -41,7 +42,8 @@ class LinearSlip : public Effect<D, Real> {
   /// Adds the energy in the springs to what is left in the model.
   void report(ShotReport& report) const override { report.energy_left += stored_energy(); }
 
-  /// Of the springs of the model, J (in 2-D J/m).
+  /// Returns the energy stored in the springs of the cells of the model that this process owns, in J (in 2-D
+  /// J/m).
   double stored_energy() const;
 
  private:

@@ -10,7 +10,7 @@
 namespace slipwave::solver {
 namespace {
 
-/// Of the wavelet, over as many intervals per fine_interval_s().
+/// Returns a table of the wavelet, at the intervals of its fine_interval_s().
 TimeSeries table_of(const Wavelet& wavelet) {
   const double interval_s =
       std::visit([](const auto& shape) { return shape.fine_interval_s(); }, wavelet.shape());
@@ -38,7 +38,7 @@ MotionAlongX::MotionAlongX(const Material& rock) : vp(rock.vp), vs(rock.vs) {
 
 namespace {
 
-/// Of rock whose axis is tilted.
+/// Resolves fields into the waves along x in rock whose axis is tilted.
 WavesAlongX turned_waves_along_x(const MotionAlongX& medium, const PlaneFields& fields) {
   const double c = medium.cosine, s = medium.sine;
   const double fast = c * fields[plane_vx] + s * fields[plane_vz],

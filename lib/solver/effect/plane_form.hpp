@@ -15,8 +15,8 @@ namespace slipwave::solver {
 /// the share of s_xx that a P wave along x has across it. Fluid: no S.
 struct MotionAlongX {
   double vp = 0, vs = 0, zp = 0, zs = 0, passive = 0;
-  /// Of rock whose axis is tilted: the motion of the faster wave, along x and z, and what the slower one has
-  /// across x as a share of its traction.
+  /// These three are of rock whose axis is tilted: the motion of the faster wave, along x and z, and the
+  /// normal stress across x that the slower one has as a share of its traction.
   double cosine = 1, sine = 0, passive_s = 0;
   MotionAlongX() = default;
   explicit MotionAlongX(const Material& rock);
@@ -99,7 +99,7 @@ class PlaneForm {
   const MotionAlongX& medium() const { return medium_; }
   /// Along x and z, s/m.
   const std::array<double, 2>& slowness() const { return slowness_; }
-  /// When the front passes.
+  /// Returns the time at which the front passes, in s.
   double arrival_s(double x, double z) const {
     return (x - origin_[0]) * slowness_[0] + (z - origin_[1]) * slowness_[1];
   }

@@ -225,7 +225,8 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
   }
 }
 
-/// The same of runs across one other axis. What lies along z is collective.
+/// Marks such cells of runs along one other axis, `across`, at one side of the edge. Along z it is
+/// collective.
 template <int D, class Real>
 void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks) {
   auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];

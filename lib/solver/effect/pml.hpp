@@ -58,8 +58,8 @@ class Pml : public Effect<D, Real> {
   std::int64_t memory_bytes() const override;
 
  private:
-  /// Of one sweep, by slot: the factor of the memory in what is subtracted and its decay over half the sweep,
-  /// and the loss of fields in plates over all of it.
+  /// The factors of one sweep, by slot: the factor of the memory in what is subtracted and its decay over
+  /// half the sweep, and the loss of fields in plates over all of it.
   struct Factors {
     std::vector<Real> loss, left, lost_in_plates;
     PmlFactors<Real> from(std::int64_t slot) const {
@@ -101,7 +101,8 @@ class Pml : public Effect<D, Real> {
   void find_turning(int axis, int side, const Domain<D>& domain);
   void find_slopes(int axis, int side, const Domain<D>& domain);
   double most_damped(int axis) const;
-  /// Of the field rows of a row of cells: the first value of the first of them, and from one to the next.
+  /// Returns the first value of the first of the field rows of a row of cells, and the distance from one
+  /// field row to the next.
   std::pair<Real*, std::int64_t> memory_of(int axis, const Index<D>& line, std::int64_t first);
 
   Layout<D> layout_;

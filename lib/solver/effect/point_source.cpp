@@ -120,7 +120,7 @@ bool PointSource<D, Real>::add_stress_before(std::int64_t step, const RowFields<
   return any;
 }
 
-/// Of the cells of these columns that the source may reach.
+/// Returns the energy of the cells of these columns that the source may reach.
 template <int D, class Real>
 double PointSource<D, Real>::energy_of(std::int64_t line, const IndexRange& columns) const {
   std::int64_t first = columns.last, last = columns.first;

@@ -107,7 +107,7 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
   }
 }
 
-/// The same of one cell in which planes lie askew to the axes of anisotropic rock; they do not open.
+/// Records the slip of one cell in which planes lie askew to the axes of anisotropic rock; they do not open.
 template <int D, class Real>
 void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const Elasticity<D>& stiffness,
                                  std::int64_t i, const Real* before, const Real* after, std::int64_t pitch,

@@ -48,7 +48,7 @@ std::array<double, 3> stress_of_slip(const Point<2>& n, const Elasticity<2>& c) 
   return stress_of_strain<2>(c, {-n[0] * n[1], n[1] * n[0], n[0] * n[0] - n[1] * n[1]});
 }
 
-/// Of that the traction along t.
+/// Returns the traction along t of that stress.
 double traction_along(const Point<2>& n, const std::array<double, 3>& stress) {
   return n[0] * n[1] * (stress[1] - stress[0]) + (n[0] * n[0] - n[1] * n[1]) * stress[2];
 }
@@ -106,7 +106,8 @@ std::vector<double> SlipGroup<D, Real>::put_response(std::size_t place, const El
   return moduli;
 }
 
-/// Where planes open, give way as springs or lie askew in their rock the part is loaded as the cell is.
+/// Where planes open, have springs or lie askew to the axes of anisotropic rock, the part of a cut cell that
+/// slips is loaded as the cell is.
 template <int D, class Real>
 double SlipGroup<D, Real>::put_edge(const Model<D>& model, std::size_t place, std::size_t cell, double lambda,
                                     double mu) {

@@ -41,7 +41,7 @@ class SlipGroup {
             double dt_s, double unit);
 
   using Segment = typename FractureCells<D>::Segment;
-  /// Of that row, ascending.
+  /// Returns the segments of that row, ascending.
   std::span<const Segment> segments(std::int64_t line) const { return places_.segments(line); }
   /// Acts on n cells from number `place` on; `stress` is the first component of the first of them, the others
   /// `pitch` apart. At the end of a step planes open before they slip.
@@ -84,7 +84,8 @@ class SlipGroup {
   /// What of a held slip acts on the planes, for all systems (S39).
   double held_share_of_all(const Point<D>& edge, double lambda, double mu) const;
   void act_on(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  /// Of all systems at a place, (S34), (S34a). Returns the modulus of each that its relaxation counts.
+  /// Stores the response of the planes of all systems at a place, (S34), (S34a). Returns the modulus of each
+  /// that its relaxation counts.
   std::vector<double> put_response(std::size_t place, const Elasticity<D>& stiffness);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   /// The law for all systems: one that covers those of each.
@@ -96,8 +97,8 @@ class SlipGroup {
   void slip_jointly(const JointSlip<D, Real, Law>& joint, Real* stress, std::int64_t pitch, std::size_t place,
                     std::int64_t n, bool begins);
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
-  /// Of component c of the stress of a cell, for systems without a kernel and the centred rule: what is taken
-  /// off ahead, and the explicit half of the law.
+  /// These two give what is retained of component c of the stress of a cell, for systems without a kernel and
+  /// the centred rule: what is taken off ahead, and the explicit half of the law.
   Real& ahead(std::size_t c, std::size_t place) { return retained_[c * count_ + place]; }
   Real& explicit_half(std::size_t c, std::size_t place) {
     return retained_[(SymmetricTensor<D, Real>::components + c) * count_ + place];

@@ -81,7 +81,8 @@ bool StackResponse<D>::comes_from_outside(std::size_t layer, bool down) const {
   return layer + 1 == stack_.column.layers.size() && stack_.ends[1] == EdgeLaw::absorbing;
 }
 
-/// Where the amplitude of a wave is 1: at the face that it leaves, in half-spaces at their face.
+/// Returns the depth at which the amplitude of a wave is 1, in m: at the face that it leaves, in half-spaces
+/// at their face.
 template <int D>
 double StackResponse<D>::reference_of(std::size_t layer, bool down) const {
   const double top = stack_.column.depths_m[layer], bottom = stack_.column.depths_m[layer + 1];

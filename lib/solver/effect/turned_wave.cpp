@@ -45,7 +45,7 @@ std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const Motion
   return waves;
 }
 
-/// The same of a rock of any symmetry.
+/// Returns the waves along an axis in a rock of any symmetry, and their velocities, in m/s.
 std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const Elasticity<3>& stiffness,
                                                           double rho, const WaveFields<3>& fields) {
   std::vector<std::pair<WaveFields<3>, double>> waves;
@@ -76,7 +76,7 @@ std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const Elasti
   return waves;
 }
 
-/// Of every stage between sweeps of a step.
+/// Returns how far sweeps are ahead at every stage between the sweeps of a step.
 std::vector<SweepsAhead> all_ahead(int time_order, double dt_s) {
   const auto sweeps = splitting(3, time_order);
   const SweepClocks<3> clocks(sweeps, dt_s);
@@ -105,9 +105,9 @@ class TurnedWave : public IncidentWave<3, Real> {
 
   /// Known in the zone of that side of z alone.
   void enters_only(int side) { only_ = side; }
-  /// By how much a row is later than its series say.
+  /// Sets by how much a row is later than its series say, in s.
   void set_delay(std::size_t row, double later_s) { later_s_[row] = later_s; }
-  /// Of a stage in all rows, or of the next row.
+  /// Adds the series of a stage: one for all rows, or that of the next row.
   void add(std::size_t stage, SpaceSeries series) {
     series_.resize(stages_.size());
     series_[stage].push_back(std::move(series));
@@ -204,7 +204,7 @@ SpaceSeries series_of_wavelet(const Wavelet& wavelet, const std::vector<ShiftedF
   return series;
 }
 
-/// Of a row in layers; `parts_of` says what becomes of N fields there.
+/// Returns the series of a row in layers; `parts_of` says what becomes of its N fields.
 template <std::size_t N, class Layers, class PartsOf>
 SpaceSeries series_of_layers(Layers& layers, const std::array<std::vector<std::complex<double>>, N>& spectra,
                              const PartsOf& parts_of) {

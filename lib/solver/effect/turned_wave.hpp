@@ -28,7 +28,7 @@ struct SweepsAhead {
 std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const WaveFields<3>& fields,
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead);
 
-/// The same in a rock of any symmetry (theory.md (A19)).
+/// Overload for a rock of any symmetry (theory.md (A19)).
 std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho,
                                        const WaveFields<3>& fields, const std::array<double, 2>& slowness,
                                        const SweepsAhead& ahead);

@@ -10,8 +10,8 @@
 /// everybody.
 namespace slipwave::solver {
 
-/// Where neither side carries a wave up = down = 0: this gives 0/none instead of 0/0. Its square is finite
-/// and normal.
+/// This term of a divisor gives 0/none instead of 0/0 where neither side carries a wave (up = down = 0). Its
+/// square is finite and normal.
 inline constexpr double none = 1e-15;
 
 /// The criterion of monotonicity for one outgoing wave (theory.md (C1)): `wave` within what keeps the new
@@ -87,8 +87,8 @@ template <bool Shear, class Real>
   v += moved * ds;
   s += p_modulus * dv;
 }
-/// The same in an anisotropic medium, whose passive stress takes c13 of the strain (V1): `coupled` is that
-/// times dt/h and the size of the fraction.
+/// The update of a cell of an anisotropic medium by the P pair, whose passive stress takes c13 of the strain
+/// (V1): `coupled` is that times dt/h and the size of the fraction.
 template <class Real>
 [[gnu::always_inline]] inline void update_coupled_p(Real dv, Real ds, Real moved, Real p_modulus,
                                                     Real coupled, Real& v, Real& s, Real& along) {
@@ -104,7 +104,7 @@ template <class Real>
   s_modulus = strained * z * z;
   along = strained * coupling * dv;
 }
-/// The same of an S pair.
+/// The update of a cell by an S pair of both faces.
 template <class Real>
 [[gnu::always_inline]] inline void update_s(Real dv, Real ds, Real moved, Real s_modulus, Real& v, Real& s) {
   v += moved * ds;

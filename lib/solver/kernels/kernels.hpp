@@ -205,15 +205,16 @@ struct Kernels {
                 const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D).
   InterfaceKernels<Real> face[2];
-  /// Where all is fluid, in 2-D and 3-D: of the P pair alone, whose stress is that of all axes.
+  /// The kernels of faces where all is fluid, in 2-D and 3-D: they treat the P pair alone, whose stress is
+  /// that of all axes.
   InterfaceKernels<Real> fluid_face;
-  /// Of anisotropic media, by dimension.
+  /// The kernels of faces of anisotropic media, by dimension.
   InterfaceKernels<Real> anisotropic_face[2];
   /// Reconstruction, Riemann solution and update of a row across (null for uniform runs), by dimension.
   void (*fused_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
-  /// Of an anisotropic medium, by dimension.
+  /// The fused row of an anisotropic medium, by dimension.
   void (*fused_anisotropic_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
-  /// The same where all is fluid, in 2-D and 3-D.
+  /// The fused row where all is fluid, in 2-D and 3-D.
   void (*fused_fluid_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// By dimension.
   BentKernels<Real> bent[2];
@@ -224,11 +225,12 @@ template <class Real>
 struct PmlKernels {
   /// phi += u - before.
   void (*collect)(std::int64_t n, const Real* before, const Real* u, Real* phi);
-  /// The same, then u -= loss phi and the damping in plates; phi *= left. Factors by cell, all cells in
-  /// plates or none.
+  /// Does phi += u - before, then u -= loss phi and the damping in plates, then phi *= left. Factors are by
+  /// cell; `plate` is the damping in plates of all cells, in terms of the factor (0: no plate).
   void (*damp_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* u,
                      Real* phi);
-  /// The same factors for all cells, plates (1) or not (0) by cell.
+  /// Does so with the same factors for all cells and the damping in plates by cell, in terms of the factor
+  /// (0: no plate).
   void (*damp_across)(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
                       Real* u, Real* phi);
   /// u -= loss phi; phi *= left: factors by cell, then the same for all.

@@ -249,7 +249,7 @@ constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                  Uniform ? nullptr : fused_row<Order, 0, false, Real>,
                                  {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
 
-/// Those of the n-th order in the list, or of a later one.
+/// Returns the kernels of that order, searched from the N-th order of the list on; null where it has none.
 template <bool Uniform, class Real, int N = 0>
 const Kernels<Real>* of_order(int order) {
   if constexpr (N < order_count)

@@ -202,7 +202,7 @@ struct CrossingRows {
   static constexpr int components = D == 2 ? 3 : 6;
 };
 
-/// Of all components; in 2-D the last three are not used.
+/// The rows of all components; in 2-D the last three are not used.
 template <int D, class Real>
 struct AllCrossingRows {
   CrossingRows<D, Real> c0, c1, c2, c3, c4, c5;

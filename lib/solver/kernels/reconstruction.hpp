@@ -128,7 +128,7 @@ template <int Order, class Real, class Value, class At>
   }
 }
 
-/// The same of a field of numbers, whose neighbours lie `stride` apart.
+/// Even and odd part of a field of numbers, whose neighbours lie `stride` apart.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void even_odd(const Real* u, long stride, const Weights<Order, Real>& w,
                                             Real& even, Real& odd) {

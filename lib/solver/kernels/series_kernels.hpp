@@ -28,7 +28,7 @@ struct SeriesKernels {
   void (*combine)(std::int64_t n, int count, const double* weights, const double* const* rows, double* sums);
 };
 
-/// Those for the best instruction set of this processor.
+/// Returns the loops for the best instruction set of this processor.
 template <class Real>
 const SeriesKernels<Real>& series_kernels();
 

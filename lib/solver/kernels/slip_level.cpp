@@ -53,7 +53,8 @@ template <int D, class Real>
   return relaxation > 0 && size > strength ? greater(lesser(strength + excess, size), Real(0)) : size;
 }
 
-/// The same by the centred rule: (u1, u2) is along the traction that welded planes would carry.
+/// |tau| at the end of a step by the centred rule: (u1, u2) is along the traction that welded planes would
+/// carry.
 template <int D, class Real>
 [[gnu::always_inline]] inline Real centred_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
                                                Real u2, Real size, Real strength, Real relaxation) {

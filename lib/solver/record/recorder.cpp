@@ -14,7 +14,7 @@
 #include "solver/record/component_weights.hpp"
 
 namespace slipwave::solver {
-/// Those that overlap or touch stand as one, and their values follow each other, `aligned` to multiples.
+/// Stretches that overlap or touch stand as one, and their values follow each other, `aligned` to multiples.
 Stretches::Stretches(std::vector<Stretch> stretches, std::int64_t aligned) {
   std::sort(stretches.begin(), stretches.end());
   for (const auto& one : stretches)

@@ -32,7 +32,7 @@ class Stretches {
   const std::vector<Stretch>& all() const { return all_; }
   std::int64_t value(std::size_t n) const { return values_[n]; }
   std::int64_t values() const { return values_.back(); }
-  /// Of the first value of a part of one of them.
+  /// Returns where the first value of a part of one of them stands.
   std::int64_t value_of(const Stretch& part) const;
 
  private:
@@ -88,7 +88,7 @@ class Recorder : public Record<D, Real> {
   void find_box(const Layout<D>& layout, std::int64_t rows_before);
   /// Whether any sample is interpolated from the end of that step.
   bool wants(const StepTime& time) const;
-  /// When a sample is taken, in steps, and the last step that has ended before.
+  /// Returns when a sample is taken, in steps; steps_before() returns the last step that has ended before.
   double steps_at(std::int64_t sample, double dt_s) const {
     return double(sample) * gather_.axis.interval_s / dt_s;
   }
@@ -113,7 +113,7 @@ class Recorder : public Record<D, Real> {
     std::int64_t first, last;  // columns
     std::int64_t value;        // place of the first among those of a step
   };
-  /// Those of one row of a line.
+  /// The runs of one row of a line.
   struct RowRuns {
     int row;
     std::size_t first, last;  // in runs_

@@ -33,8 +33,8 @@ class Halo {
 
   /// Before a tile reaches these rows: refreshes those that neighbours own. Returns them, above and below.
   std::array<IndexRange, 2> before(const IndexRange& rows);
-  /// When a tile has finished all rows before `now`, and had finished those before `earlier` at the last
-  /// call: sends the neighbours the rows they wait for.
+  /// Sends the neighbours the rows they wait for, when a tile has finished all rows before `now`, and had
+  /// finished those before `earlier` at the last call.
   void after(std::int64_t earlier, std::int64_t now);
   /// Rows that are still valid after so many steps of a tile, when stale values spread by `spread` in each.
   IndexRange valid_rows(std::int64_t steps, const IndexRange& spread) const;

@@ -14,9 +14,9 @@ struct Patch {
   IndexRange cells, blocks;
 };
 
-/// Where slip needs two half sweeps along x instead of one merged sweep: the cells of fractures, and those
-/// beside them whose second half sweep reads what slip has changed. The same with and without slip: the
-/// difference must be the work of slip alone.
+/// Patches say where slip needs two half sweeps along x instead of one merged sweep: the cells of fractures,
+/// and those beside them whose second half sweep reads what slip has changed. They are the same with and
+/// without slip: the difference must be the work of slip alone.
 template <int D>
 class Patches {
  public:
@@ -26,8 +26,8 @@ class Patches {
   /// Lines that take half sweeps as a whole, ascending: their patches are most of them or come close to an
   /// end.
   std::span<const std::int64_t> whole_lines() const { return whole_lines_; }
-  /// Of a line that does not, ascending; `margin` more cells on both sides of their blocks are no other
-  /// patch's.
+  /// Returns the patches of a line that does not take half sweeps as a whole, ascending; `margin` more cells
+  /// on both sides of their blocks belong to no other patch.
   std::span<const Patch> of(std::int64_t line) const {
     if (patches_.empty()) return {};
     return {patches_.data() + starts_[std::size_t(line)],

@@ -102,7 +102,8 @@ void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) 
   for (const auto& patch : patches) sweeps_.put(copy, patch.cells);
 }
 
-/// As the tiled executor, which stores where fields may be other than zero: here they may be everywhere.
+/// Serializes as the tiled executor does, which stores where fields may be other than zero: here they may be
+/// everywhere.
 template <int D, class Real>
 void PlainExecutor<D, Real>::serialize(Archive& archive) {
   std::vector<char> active(std::size_t(state_.layout.lines() * state_.layout.padded_nx() / Layout<D>::block),

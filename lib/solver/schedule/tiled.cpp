@@ -168,8 +168,8 @@ std::int64_t TiledExecutor<D, Real>::boundaries_per_sweep() const {
   return stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
 }
 
-/// Where a sweep that much ahead ends in a stripe. The one before it in the tile is two blocks ahead of it,
-/// or at the end of the row; in 3-D as many rows as it needs.
+/// Returns where a sweep that much ahead ends in a stripe. The one before it in the tile is two blocks ahead
+/// of it, or at the end of the row; in 3-D as many rows as it needs.
 template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::last_column(std::int64_t stripe, std::int64_t ahead) const {
   constexpr std::int64_t block = D == 2 ? Layout<D>::block : 1, least = D == 2 ? 2 * Sweeps<D, Real>::lag : 0;
@@ -435,8 +435,8 @@ void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRang
   }
 }
 
-/// Those of some cells, whole blocks, that a sweep may change which reads these rows, in 3-D these lines of
-/// each plane: cells farther from any that is not zero stay so.
+/// Returns the part of some cells, in whole blocks, that a sweep may change which reads these rows, in 3-D
+/// these lines of each plane: cells farther from any that is not zero stay so.
 template <int D, class Real>
 IndexRange TiledExecutor<D, Real>::reached(const StepTime& time, const IndexRange& rows,
                                            const IndexRange& lines, const IndexRange& cells) const {

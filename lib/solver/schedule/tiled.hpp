@@ -148,14 +148,15 @@ class TiledExecutor : public Executor {
     for (std::int64_t first = 0; first < layout_.shape()[0]; first += chunk_)
       what(IndexRange{first, std::min(first + chunk_, layout_.shape()[0])});
   }
-  /// Those beside cells that a sweep of these reads, corrections of free surfaces included: at most a block.
+  /// The number of cells beside its own that a sweep reads, corrections of free surfaces included: at most a
+  /// block.
   static constexpr std::int64_t read_beside = Layout<D>::block;
   static_assert(max_reach + 1 + free_surface_reach <= read_beside);
   /// How far sweeps along an axis must stay behind what its free surfaces read.
   std::int64_t surface_rows(int axis) const {
     return sweeps_.corrects_surface(axis) ? free_surface_reach : 0;
   }
-  /// The same rows (in 3-D of a plane) and those beside them that free surfaces of an axis read.
+  /// Returns these rows (in 3-D of a plane) and those beside them that free surfaces of an axis read.
   IndexRange with_surface_rows(int axis, const IndexRange& rows) const {
     return {rows.first - surface_rows(axis), rows.last + surface_rows(axis)};
   }

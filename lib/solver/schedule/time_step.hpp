@@ -78,7 +78,7 @@ class TimeStep {
   }
   /// Whether an effect acts between that sweep, one of sweeps(), and the next.
   bool acts_after_sweep(std::size_t sweep) const { return !between_[sweep].empty(); }
-  /// Those effects.
+  /// Applies those effects.
   void apply_after_sweep(std::size_t sweep, const StepTime& time, const RowFields<Real>& fields,
                          const IndexRange& cells) const {
     for (auto* effect : between_[sweep]) effect->apply_between(time, fields, cells);
@@ -89,7 +89,7 @@ class TimeStep {
                           const IndexRange& cells) const {
     for (auto* effect : acting_[1][std::size_t(of)]) effect->apply_after_record(time, fields, cells);
   }
-  /// When all rows have reached the end of the step, step after step.
+  /// Ends a step, when all rows have reached its end; called step after step.
   void finish(const StepTime& time);
   /// From now on `progress` (may be null) is called after each finished step.
   void tell(const Progress* progress) { progress_ = progress; }

@@ -133,7 +133,7 @@ void reconstruct(const RowWaves<D, Real>& waves,
   put_outgoing<D>(resolved(all_up, cell.normals[1]), resolved(all_down, cell.normals[0]), outgoing);
 }
 
-/// The same of an isotropic cell (F4).
+/// Reconstructs the outgoing waves of an isotropic cell (F4).
 template <int Order, int D, class Real>
 void reconstruct(const std::array<MotionAt<RowVector<D, Real>>, std::size_t(Order)>& at,
                  const CellAcross<D, Real>& cell, OutgoingWaves<Real> outgoing) {

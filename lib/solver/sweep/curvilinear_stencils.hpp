@@ -19,8 +19,8 @@ namespace slipwave::solver {
 /// Two media that touch at a face of a curvilinear grid, before and behind it.
 template <int D, class Real>
 struct WeldedFace {
-  /// Of velocities in the order of RowVector R = (Z_l + Z_r)^-1 Z_r with the cell before as l (theory.md
-  /// (F13)); for that behind it is 1 - R.
+  /// The share R of velocities in the order of RowVector: R = (Z_l + Z_r)^-1 Z_r with the cell before as l
+  /// (theory.md (F13)); for that behind it is 1 - R.
   SmallMatrix<std::size_t(D), Real> share;
   std::array<bool, 2> solid;
 };
@@ -51,7 +51,7 @@ class CurvilinearStencils {
                const AnisotropicCellsAcross<D, Real>& anisotropic, OutgoingWaves<Real> outgoing) const;
 
  private:
-  /// Of P and S; the weld is a place in welds_.
+  /// A side serves P and S; the weld is a place in welds_.
   using Side = StencilSide<2, std::int32_t>;
 
   ByLine<Stencil<Side>> list_;

@@ -58,8 +58,9 @@ class Domain {
   std::vector<PartedFace<D>> parted;  // of the computed grid, by axis and cell
   std::vector<std::int64_t> soft;     // cells that carry next to no stress (soft_cells())
   int order = 1;                      // of the reconstruction, at most
-  /// Of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that stencils reach from
-  /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
+  /// These two are of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that
+  /// stencils reach from it is not level, and the height of level ones in cells. They are empty where none is
+  /// bent, or all are one cell.
   std::vector<char> bent_rows;
   std::vector<double> row_heights;
   /// How rows continue beyond each side of the model.
@@ -71,7 +72,8 @@ class Domain {
   /// Impedance of a wave along an axis in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps,
   /// effects and records are built: throws std::logic_error after release_impedances().
   const Field<D>& impedance(Wave wave, int axis = D - 1) const;
-  /// That of a pair of sweeps along an axis (axis_of_pair()), which differ in anisotropic rock in space.
+  /// Returns the impedance of a pair of sweeps along an axis (axis_of_pair()); pairs differ in anisotropic
+  /// rock in 3-D.
   const Field<D>& impedance_of_pair(int axis, int pair) const;
   /// Whether the S pairs of an axis may have different ones.
   bool splits_shear() const { return D == 3 && anisotropic(); }
@@ -111,7 +113,7 @@ class Domain {
     if (D == 3) cells_ = {}, media_ = {};
   }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
-  /// Of an anisotropic medium, besides: the other rows of its material, by MaterialRow.
+  /// The other rows of the material of an anisotropic medium, by MaterialRow.
   using Rows = std::array<Field<D>, std::size_t(most_material_rows)>;
   void set_anisotropy(MaterialKind kind, Rows more) {
     anisotropic_ = true;
@@ -121,7 +123,8 @@ class Domain {
 
   /// Whether any cell carries S waves.
   bool shear() const;
-  /// That of all processes. What lies in bent rows does not count as fluid: they couple all fields.
+  /// Returns the kind of medium of all processes together. What lies in curvilinear rows does not count as
+  /// fluid: they couple all fields.
   MaterialKind material_kind() const { return material_kind_; }
   void find_material_kind() {
     const bool shears = subdomain.shear || !bent_rows.empty() || shear();
@@ -173,7 +176,7 @@ SmallMatrix<std::size_t(D)> edge_coupling(const Elasticity<D>& elasticity, int a
 /// The elasticity that loops of sweeps take a cell of an anisotropic domain for, times the density.
 template <int D>
 Elasticity<D> elasticity_of_loops(const Domain<D>& domain, const Index<D>& cell);
-/// That of any cell, times the density.
+/// Returns the elasticity of any cell, times the density.
 template <int D>
 Elasticity<D> elasticity_at(const Domain<D>& domain, const Index<D>& cell);
 /// Whether a cell is one of anisotropic_cells(), or in 3-D S waves along z have two speeds there.

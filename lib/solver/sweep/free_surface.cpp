@@ -44,7 +44,8 @@ class AlongSurface {
   std::vector<SurfaceTerm<D>> terms_;
 };
 
-/// The same of a bent row at an end of z: all velocities of the neighbours take part.
+/// Returns the terms of such a slope at a curvilinear row at an end of z: all velocities of the neighbours
+/// take part.
 template <int D>
 std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& at, int side, int row) {
   const auto [normal, height] = end_of_rows(domain, at, side);
@@ -68,8 +69,8 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return velocities.terms();
 }
 
-/// The same of an anisotropic cell: the tensor of N times what it bends is the traction of motion along the
-/// rows.
+/// Returns the terms of such a slope at an anisotropic cell of a curvilinear row: the tensor of N times what
+/// it bends is the traction of motion along the rows.
 template <int D>
 std::vector<SurfaceTerm<D>> anisotropic_bent_slope(const Domain<D>& domain, const Index<D>& at, int side,
                                                    int row) {
@@ -287,7 +288,7 @@ void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domai
   tractions_.finish();
 }
 
-/// Of all pairs.
+/// Finds the corrections of all pairs at a cell.
 template <int D, class Real>
 void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domain<D>& domain,
                                             const Index<D>& at) {
@@ -332,7 +333,8 @@ void FreeSurface<D, Real>::find_tensor(const Domain<D>& domain, const Index<D>& 
     for (std::size_t k = 0; k < D; ++k) end.tensor[i][k] = Real(factor * tensor[i][k]);
 }
 
-/// Of both pairs, in 3-D of the first two, of the first and the last, and of the last two.
+/// Returns the stiffnesses that mix two pairs: in 2-D both, in 3-D the first two, the first and the last, and
+/// the last two.
 template <int D, class Real>
 auto FreeSurface<D, Real>::mixed_stiffness(const Domain<D>& domain, const Index<D>& at, double factor) const
     -> Mixed {

@@ -72,8 +72,8 @@ class FreeSurface {
   /// Computes all below at cells of these numbers for the following sweep across, from the fields or the
   /// copy, up to free_surface_reach cells beyond.
   void update_corrections(const State<D, Real>& state, const IndexRange& numbers);
-  /// Of a pair of the sweep across (0 P, then S by axes), by number: the correction of v over 2 j + 1, and
-  /// that of s in a sweep over a whole step.
+  /// These return the corrections for a pair of the sweep across (0 P, then S by axes), by number: that of v
+  /// over 2 j + 1, and that of s in a sweep over a whole step.
   const Real* velocity_correction(int pair) const { return velocity_corrections_[std::size_t(pair)].data(); }
   const Real* traction_correction(int pair) const { return traction_corrections_[std::size_t(pair)].data(); }
   const SurfaceTractions<D, Real>& tractions() const { return tractions_; }
@@ -107,7 +107,7 @@ class FreeSurface {
     std::int64_t number, b, zp, zs;
     RowVector<D, Real> normal;
     Real factor;
-    /// Of anisotropic rock: the acoustic tensor of N times the density, over J, as N.N is.
+    /// These two are of anisotropic rock: the acoustic tensor of N times the density, over J, as N.N is.
     bool anisotropic = false;
     SmallMatrix<std::size_t(D), Real> tensor{};
   };

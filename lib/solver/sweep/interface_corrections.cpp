@@ -12,8 +12,8 @@
 namespace slipwave::solver {
 namespace {
 
-/// Of what half a sweep along the interface of fluid and solid leaves on it, the share that is taken out:
-/// with one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
+/// The share that is taken out of what half a sweep along the interface of fluid and solid leaves on it: with
+/// one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
 constexpr double traction_share = 0.5;
 /// Ratio of P impedances from which a fluid is too light to hold a wave at the interface: over gas the energy
 /// of thousands of steps would rise by a few millionths of what is left.
@@ -169,7 +169,8 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
     for (auto& list : *lists) list.assign(slots_.size(), 0);
 }
 
-/// Of a face beside anisotropic cells: the sums of update_slot() with impedances and tensors of the vector N.
+/// Adds the matrices of a face beside anisotropic cells and returns their number: the sums of update_slot()
+/// with impedances and tensors of the vector N.
 template <int D, class Real>
 std::int32_t InterfaceCorrections<D, Real>::add_matrices(const State<D, Real>& state, const Domain<D>& domain,
                                                          const Metric<D, Real>& metric, const Index<D>& below,

@@ -44,7 +44,7 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   }
 }
 
-/// The same of these cells, ascending, in the line that begins with cell `first`.
+/// Marks these cells, ascending, in the line that begins with cell `first`.
 void mark_these(const std::vector<std::int64_t>& cells, std::int64_t first,
                 std::vector<std::int32_t>& marks) {
   const auto last = first + std::int64_t(marks.size());

@@ -43,7 +43,7 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
 /// Cells the reconstruction may reach beyond a corrected free surface, a strong interface or a contrast: with
 /// three, solids between free surfaces, plates and random densities grew at Courant numbers from 0.9 on.
 constexpr int most_reach_at_contrasts = 2;
-/// The same beyond the plain mirror image at a void.
+/// Cells the reconstruction may reach beyond the plain mirror image at a void.
 constexpr int most_reach_at_mirrors = 3;
 /// In cells of a cluster that carry next to no stress, where more of it fed motion between contrasts
 /// (theory/fractures.md).
@@ -58,7 +58,7 @@ constexpr int reach_up_to(int cells, int beyond, int reach) {
 }
 /// Ratio of impedances from which a face within the stencil of a cell is a contrast.
 constexpr double contrast_ratio = 1.2;
-/// The same of impedances as matrices, where axes are tilted.
+/// Ratio of impedances as matrices from which such a face is a contrast, where axes are tilted.
 constexpr double tilted_contrast_ratio = 1.05;
 
 constexpr std::int8_t not_carried = -1;
@@ -169,7 +169,7 @@ struct TiltedContrasts {
   std::function<TiltedContrast(const Index<D>& behind)> before{};
 };
 
-/// Where axes are tilted: faces that stencils cross, and contrasts.
+/// The faces that stencils cross and the contrasts, where axes are tilted.
 template <int D>
 struct TiltedFaces {
   TiltedFace<D> crossed{};
@@ -217,7 +217,7 @@ class InterfaceStencils {
   InterfaceStencils() = default;
   template <int D>
   explicit InterfaceStencils(const StencilSearch<D>& of);
-  /// That of a cell, null where the bulk kernel serves.
+  /// Returns the stencil of a cell, null where the bulk kernel serves.
   const InterfaceStencil* find(std::int64_t line, std::int64_t x) const { return list_.find(line, x); }
 
   std::size_t size() const { return list_.cells.size(); }

@@ -63,7 +63,7 @@ void solve_faces(std::int64_t n, const RunOfImpedances<3, Real>& lo, const RunOf
   }
 }
 
-/// Where component (i, k) of a symmetric matrix of D rows stands.
+/// Returns the place of component (i, k) of a symmetric matrix of D rows.
 template <int D>
 constexpr std::size_t place_in(std::size_t i, std::size_t k) {
   return i <= k ? i * (2 * D - 1 - i) / 2 + k : place_in<D>(k, i);

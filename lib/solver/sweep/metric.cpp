@@ -9,7 +9,8 @@
 
 namespace slipwave::solver {
 
-/// Of the corners of the computed grid, in cells: corner_depth() of each, found once.
+/// This table holds the depths of the corners of the computed grid, in cells: corner_depth() of each, found
+/// once.
 template <int D>
 class CornerDepths {
  public:
@@ -44,7 +45,7 @@ double mean_gain(const CornerDepths<D>& depth, const Index<D>& cell, int axis, i
   return gain / (D - 1);
 }
 
-/// Of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
+/// Returns the slope of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
 template <int D>
 double slope_of_face(const CornerDepths<D>& depth, const Index<D>& cell, int axis) {
   return mean_gain(depth, cell, axis, axis);

@@ -37,7 +37,8 @@ class Metric {
 
   /// Whether there are fluid cells on either side of the face before a line, across the rows.
   bool fluid_at_face(std::int64_t line) const { return fluid(line) || fluid(line - lines_a_row_); }
-  /// Of a bent row, from a cell on.
+  /// These return the metric of a curvilinear row, from cell x on: for sweeps along the row and for those
+  /// across the rows.
   BentAlong<Real> along(int axis, const Index<D>& line, std::int64_t x) const;
   BentAcross<Real> across(const Index<D>& line, std::int64_t x) const;
   /// All rows of the metric of a line.

@@ -33,14 +33,15 @@ template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row, Side side = Side::solid);
 
-/// The same for a source, which adds with them. Stresses of solids that would reach beyond a free surface go
-/// to the two nearest cells across it instead, or are extrapolated from them beyond the last centre.
+/// Returns the weights for a source, which adds with them. Stresses of solids that would reach beyond a free
+/// surface go to the two nearest cells across it instead, or are extrapolated from them beyond the last
+/// centre.
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row, Side side = Side::solid);
 
-/// The same for a normal stress in a solid, smoothly spread over cells of the rock that the source is in
-/// (theory.md (A8)). Empty in fluid, and where that rock is too thin.
+/// Returns the weights of a source for a normal stress in a solid, smoothly spread over cells of the rock
+/// that the source is in (theory.md (A8)). They are empty in fluid, and where that rock is too thin.
 template <int D>
 std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                                const Point<D>& point_m, int field_row,

@@ -77,7 +77,7 @@ struct RowWaves {
 template <int D>
 RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, double j, const Point<D>& normal,
                               const std::array<Point<D>, 2>& normals_of_faces);
-/// Those of the cell at which the metric begins.
+/// Returns the waves of the cell at which the metric begins.
 template <int D, class Real>
 RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, const BentAcross<Real>& metric) {
   const auto face = [&](std::int64_t at) {

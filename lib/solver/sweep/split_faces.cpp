@@ -230,7 +230,7 @@ void SplitFaces<D, Real>::retain(std::int64_t line, const IndexRange& columns) {
             state_.fields.data()[faces_[n].cells[side] + row * state_.layout.row_pitch()];
 }
 
-/// Of a face with friction whose traction is that of `welded` rock, in a sweep over `size` of the step.
+/// Solves a face with friction whose traction is that of `welded` rock, in a sweep over `size` of the step.
 template <int D, class Real>
 typename SplitFaces<D, Real>::Swept SplitFaces<D, Real>::solve(std::size_t n,
                                                                const std::array<Real, D>& welded,
@@ -328,7 +328,7 @@ void SplitFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int
   }
 }
 
-/// Of all pairs of a face state.
+/// Returns the tractions of all pairs of a face state.
 template <int D, class Real>
 std::array<Real, D> SplitFaces<D, Real>::tractions_at(const Real* face, std::int64_t pitch) {
   std::array<Real, D> all;

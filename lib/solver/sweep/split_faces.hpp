@@ -37,14 +37,15 @@ class SplitFaces {
   void add(int axis, std::int64_t line, const IndexRange& columns, Real scale, InterfaceStates<Real> lo,
            InterfaceStates<Real> hi, const SweptRows<Real>& rows, bool remember);
 
-  /// Of a pair, by slot: twice the place of the face in the domain's list, and 1 for the side behind it.
+  /// Returns the images of a pair, by slot: the slot is twice the place of the face in the domain's list,
+  /// plus 1 for the side behind it.
   const SplitImage<Real>* images(int pair) const { return images_[std::size_t(pair)].data(); }
   /// Computes them for a sweep along the last axis, of the faces before row `row` in these columns, from
   /// velocities as they are before the sweep up to free_surface_reach cells beside them.
   void update(std::int64_t row, const IndexRange& columns);
   void update_all();
-  /// The same for a sweep along x of a line; its velocities and those of lines beside it as retain() found
-  /// them, since sweeps change line after line.
+  /// Computes them for a sweep along x of a line; its velocities and those of lines beside it are as retain()
+  /// found them, since sweeps change line after line.
   void update_line(std::int64_t line, const IndexRange& columns);
   void retain(std::int64_t line, const IndexRange& columns);
 
@@ -58,7 +59,7 @@ class SplitFaces {
   std::vector<EffectShare> shares() const;
   /// Adds the energy of the springs to what is left in the model, and the work of slip.
   void report(ShotReport& report) const;
-  /// Of the springs of the rows that this process owns, J/m.
+  /// Returns the energy stored in the springs of faces in the rows that this process owns, in J (in 2-D J/m).
   double stored_energy() const;
 
  private:
@@ -74,7 +75,7 @@ class SplitFaces {
     std::array<Real, D> half_cell;      // time that a wave takes through it, in steps
     FaceLaw law;
   };
-  /// Of a face with friction, from step to step.
+  /// The state of a face with friction, from step to step.
   struct Slip {
     Real opening = 0, slip = 0;       // m times the unit of the fields
     std::array<Real, 2> stiffness{};  // SplitImage::stiffness, as the plane sticks or slides

@@ -45,9 +45,9 @@ class Buffer {
   std::int64_t count_ = 0;
 };
 
-/// Where values are stored: lines along x, each holding one row of every field, [line][field][x].
-/// Rows are padded to whole vectors; `max_reach` ghost lines stand round the grid on the other axes and at
-/// least 16 ghost values at both ends of a row.
+/// A layout says where values are stored: lines along x, each holding one row of every field,
+/// [line][field][x]. Rows are padded to whole vectors; `max_reach` ghost lines stand round the grid on the
+/// other axes and at least 16 ghost values at both ends of a row.
 template <int D>
 class Layout {
  public:
@@ -69,7 +69,7 @@ class Layout {
   /// Values in all, ghosts included.
   std::int64_t total() const { return total_; }
   std::int64_t lines() const;
-  /// Where row 0 of the line at these indices (x ignored, ghosts allowed) starts: its cell x = 0.
+  /// Returns where row 0 of the line at these indices (x ignored, ghosts allowed) starts: its cell x = 0.
   std::int64_t line(const Index<D>& at) const {
     std::int64_t offset = lead;
     for (int axis = 1; axis < D; ++axis) offset += (at[axis] + ghost_lines) * strides_[axis];
@@ -156,7 +156,8 @@ constexpr int p_row(MaterialKind material, int axis) {
   if (material == MaterialKind::orthorhombic && axis == 1) return row_zp_y;
   return material >= MaterialKind::anisotropic && axis < D - 1 ? row_zp_across : row_zp;
 }
-/// Those of the plane of two axes: of the impedance of S, and of the coupling.
+/// Returns the one of three material rows that belongs to the plane of two axes: s_row() that of the
+/// impedance of S, coupling_row() that of the coupling.
 template <int D>
 constexpr int plane_row(MaterialKind material, int one, int other, int upright, int level, int of_y) {
   if (D == 2 || material < MaterialKind::anisotropic || one + other == 2) return upright;
@@ -233,7 +234,7 @@ struct State {
     for (const auto& of_axis : uniform_interior) bytes += of_axis.memory_bytes();
     return bytes;
   }
-  /// Of a field row that is stored.
+  /// Returns a field row that is stored, from its cell x = 0 on.
   Real* field_row(const Index<D>& at, int row) {
     return fields.data() + layout.line(at) + FieldRows<D>::stored(layout, row) * layout.row_pitch();
   }
@@ -270,7 +271,7 @@ struct State {
   }
   /// The row of the impedance of P in sweeps along an axis.
   int zp_row(int axis) const { return p_row<D>(kind, axis); }
-  /// Those of a row, in the order of its cells.
+  /// Returns the uniform runs of a row, in the order of its cells.
   std::span<const UniformRun<Real>> uniform_runs_of(std::int64_t line) const {
     const auto first = first_uniform_run[std::size_t(line)];
     return {uniform_runs.data() + first, first_uniform_run[std::size_t(line) + 1] - first};

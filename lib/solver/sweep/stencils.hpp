@@ -215,7 +215,7 @@ template <class Side, class Line>
   return below || offset > stencil.high.cells ? extended_beyond(stencil, line, offset, below)
                                               : line.at(offset);
 }
-/// The same of an offset beyond an end, on the side of low coordinates or the other.
+/// The motion at an offset beyond an end of the stencil, on the side of low coordinates or the other.
 template <class Side, class Line>
 typename Line::At extended_beyond(const Stencil<Side>& stencil, const Line& line, int offset, bool below) {
   const auto& side = below ? stencil.low : stencil.high;

@@ -52,7 +52,7 @@ Difference<D> second_difference(int along, int other) {
   return difference;
 }
 
-/// Where a cell ends: on a side (0 low, 1 high) of an axis.
+/// The end of a cell: on a side (0 low, 1 high) of an axis.
 struct End {
   int axis, side;
 };

@@ -22,9 +22,11 @@ template <int D, class Real>
 class SurfaceTractions {
  public:
   SurfaceTractions() = default;
-  /// Of `cells` cells that end there on this side (0 low, 1 high) of an axis.
+  /// Makes an empty list for a surface of `cells` cells that end there on this side (0 low, 1 high) of an
+  /// axis.
   SurfaceTractions(int axis, int side, std::int64_t cells);
-  /// Where a field of a cell of the surface, or of the one behind it (1), stands from the first of a cell.
+  /// Functions of this type return the offset of a field (`row`) of a cell of the surface, or of the one
+  /// behind it (`behind` 1), from the first field of the cell that is added.
   using Offset = std::function<std::int64_t(const Index<D>& at, int behind, int row)>;
   /// Adds a cell, with numbers that ascend; its places in the fields and of b in the material.
   void add(const Domain<D>& domain, const Index<D>& at, std::int64_t number, std::int64_t place,
@@ -37,7 +39,7 @@ class SurfaceTractions {
   /// Computes them at cells first <= number < last of the surface, numbered as by FreeSurface, from the
   /// fields before the sweep, up to free_surface_reach cells beyond.
   void update(const Real* fields, const Real* material, std::int64_t first, std::int64_t last);
-  /// Of a pair of the sweep (0 P, then S by axes), by number.
+  /// Returns the tractions of a pair of the sweep (0 P, then S by axes), by number.
   const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
   /// What the sweeps before have bent the velocity along the surface, to be added to the correction of
   /// the pair's (FreeSurface) (theory.md (E11c)).
@@ -50,7 +52,7 @@ class SurfaceTractions {
     Real weight;
     auto operator<=>(const Term& other) const = default;  // NOLINT(modernize-use-nullptr): none is there
   };
-  /// Of each pair its terms of stresses, of velocities, and of its bend.
+  /// The terms of each pair: of stresses, of velocities, and of its bend.
   using Pattern = std::array<std::array<std::vector<Term>, 3>, std::size_t(D)>;
   /// A cell of the surface: places in the fields and of b, shares times mu rho, and lambda rho.
   struct Cell {

@@ -1094,7 +1094,8 @@ struct Image {
   std::int64_t cell;
   Real v, s;
 };
-/// Of ghost j beyond an edge of that law; fewer cells than j are mirrored at the `other` end, too.
+/// Returns the image for ghost j beyond an edge of that law; fewer cells than j are mirrored at the `other`
+/// end, too.
 template <class Real>
 Image<Real> image_of(std::int64_t j, std::int64_t cells, const Mirror<Real>& edge,
                      const Mirror<Real>& other) {
@@ -1191,7 +1192,7 @@ void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields
   }
 }
 
-/// The same beyond the first or the last row of another axis.
+/// Fills the ghost rows that stencils read beyond the first or the last row of another axis.
 template <int D, class Real>
 void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns,
                                       Real scale) {

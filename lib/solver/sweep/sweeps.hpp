@@ -41,8 +41,8 @@ struct SharedFaces {
 template <int D, class Real>
 class Sweeps {
  public:
-  /// Where the state has the rows of fluid alone, all loops are of the P pair. Keeps a reference to the state
-  /// only.
+  /// Makes the sweeps of a state; where it has the rows of fluid alone, all loops are of the P pair. Keeps a
+  /// reference to the state only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
   /// From now on this filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
@@ -86,7 +86,7 @@ class Sweeps {
   /// state and the memory of filters stay as they are. The copy must have room for the reconstruction beyond
   /// those.
   void copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy, Workspace<Real>& work);
-  /// The same in the workspace.
+  /// Computes such a copy in the workspace and returns it.
   RowFields<Real> ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
                                 Workspace<Real>& work);
   /// A piece of a sweep along x in a copy of some columns, which must be far from the ends of the row and
@@ -102,7 +102,8 @@ class Sweeps {
   /// Call for each step from 0 up to the number of rows + rows_behind() - 1 with the same columns and ring.
   void across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns, Real scale,
               Ring<Real>& ring, Workspace<Real>& work);
-  /// The same where all cells are zero and stay so.
+  /// Does such a piece where all cells are zero and stay so: clears outgoing waves and face states in the
+  /// ring.
   void skip(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const;
   /// Rows by which the update of a sweep across is behind the newest row.
   std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
@@ -160,13 +161,14 @@ class Sweeps {
   void reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
                        std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
                        PrefetchQueue<Real>& prefetch) const;
-  /// The same of a bent row of a fitted grid.
+  /// Reconstructs a curvilinear row of a fitted grid.
   void reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
                             std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
                             PrefetchQueue<Real>& prefetch) const;
-  /// Of the face before a row, across the rows, that is bent, or before or behind a bent row.
+  /// Returns what the Riemann solution reads at the face before a row, across the rows, where that face is
+  /// not level or lies before or behind a curvilinear row.
   BentSolve<Real> bent_face(const Index<D>& at, std::int64_t row, std::int64_t x, Ring<Real>& ring) const;
-  /// Of a bent row in a sweep across the rows.
+  /// Returns what the update of a curvilinear row reads in a sweep across the rows.
   BentUpdate<Real> bent_update(const Index<D>& line, std::int64_t x, Real* fields, std::int64_t pitch,
                                InterfaceStates<Real> lo, InterfaceStates<Real> hi) const;
   bool advance_bent(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
@@ -218,7 +220,7 @@ class Sweeps {
     return {columns.first,
             columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last};
   }
-  /// Of a piece along x the columns whose outgoing waves it or a copy ahead of it finds anew.
+  /// Returns the columns of a piece along x whose outgoing waves it or a copy ahead of it finds anew.
   IndexRange lagging(const IndexRange& columns) const {
     return {columns.first == 0 ? 0 : columns.first + lag, columns.last + 2 * lag};
   }
@@ -275,7 +277,7 @@ class Sweeps {
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
-  /// Those of a pair of the sweep along an axis; `whole`: of a whole step.
+  /// Returns the corrections of a pair of the sweep along an axis; `whole`: of a whole step.
   PairCorrections<Real> corrections_of(int axis, int pair, bool whole) const {
     PairCorrections<Real> of{nullptr, nullptr, split_ ? split_->images(pair) : nullptr, {}};
     if (axis == z_axis) of.v = corrections_.velocity(pair), of.s = corrections_.traction(pair);

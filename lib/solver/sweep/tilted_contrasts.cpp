@@ -38,7 +38,7 @@ bool is_rock(const Domain<D>& domain, const Index<D>& cell) {
   return of && !of->mean;
 }
 
-/// Of the face between two cells, one of which is tilted rock.
+/// Returns the contrast of the face between two cells, one of which is tilted rock.
 template <int D>
 TiltedContrast contrast_of(const Domain<D>& domain, const Index<D>& before, const Index<D>& behind,
                            int axis) {

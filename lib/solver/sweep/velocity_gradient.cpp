@@ -39,7 +39,7 @@ Point<D> forced_change(const Point<D>& n, const Point<D>& g, std::size_t k, doub
   return change;
 }
 
-/// The same in anisotropic rock: T(n, n) w = -T(n, g) e_k, T(n, g)_ik the sum of C_ijkl n_j g_l.
+/// Overload for anisotropic rock: T(n, n) w = -T(n, g) e_k, T(n, g)_ik the sum of C_ijkl n_j g_l.
 template <int D>
 Point<D> forced_change(const Point<D>& n, const Point<D>& g, std::size_t k, const Elasticity<D>& c) {
   auto load = product_of(tractions<D>(c, n, g), unit_vector<std::size_t(D)>(k));

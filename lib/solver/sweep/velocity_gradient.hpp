@@ -49,16 +49,16 @@ class VelocityGradient {
   }
   /// Adds the derivative per cell along an axis of the velocity `row` at a place, as products of weights.
   void add_product(const Cells& usable, const Place& at, int row, int along, double factor, Sum& sum) const;
-  /// The same along a free surface, or where there is none.
+  /// Adds that derivative along a free surface, or where there is none.
   void add_slope_along(const Place& at, int row, int along, double factor, Sum& sum) const;
-  /// The same at the point, across a free surface too.
+  /// Adds it at the point, across a free surface too.
   void add_slope(int row, int along, double factor, Sum& sum) const;
   /// The derivative per cell away from a free surface at a place on it, which those along it enforce.
   enum class Values { one_sided, with_images };
   void add_enforced_slope(const Place& at, int row, const Face& face, Values values, double factor,
                           Sum& sum) const;
-  /// Of a field that is the distance from a face: what its mirror images lack of a sum with these weights
-  /// that should be `exact`.
+  /// Returns, for a field that is the distance from a face, what its mirror images lack of a sum with these
+  /// weights that should be `exact`.
   double lacking(const std::vector<CellWeight>& weights, const Face& face, double exact) const;
   Place on_face(Place at, const Face& face) const;
   double distance(const Place& at, const Face& face) const;

@@ -123,7 +123,7 @@ class Workspace {
   /// A copy of all fields of a piece.
   Real* copy() { return row(4 * pairs_ + most_changed); }
   PrefetchQueue<Real>& prefetch() { return prefetch_; }
-  /// Of the sweep, for filters that depend on it.
+  /// Returns the time of the sweep, for filters that depend on it.
   SweepTime& time() { return time_; }
   /// From a field to the next; room for 32 cells before and behind the piece.
   std::int64_t pitch() const { return pitch_; }
