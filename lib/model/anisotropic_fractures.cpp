@@ -13,7 +13,7 @@ namespace {
 
 const char* const planes_open = "open, expected closed ones";
 
-/// Of planes that lie askew: why this is not computed, and what would be.
+/// Says of planes that lie askew why this is not computed, and what would be.
 template <int D>
 std::string askew(const std::string& what, const std::string& and_what, bool tilted) {
   if (D == 3)

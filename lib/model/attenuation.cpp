@@ -65,7 +65,7 @@ void set_delta(Medium<2>& medium, std::size_t cell, const Material& rock, double
   medium[is_tilted_mean(medium, cell) ? Property::cut_delta : Property::delta][cell] = float(left.delta);
 }
 
-/// The same of a rock in space (Q12) whose speeds in the medium have changed.
+/// Sets the deltas of a rock in 3-D (Q12) whose speeds in the medium have changed.
 void set_deltas(Medium<3>& medium, std::size_t cell, const Material& rock) {
   const double p = std::pow(medium.vp[cell] / rock.vp, 2), s = std::pow(medium.vs[cell] / rock.vs, 2);
   const auto c = upright_elasticity<3>(rock);
@@ -310,7 +310,7 @@ StepwiseRelaxation<D>::StepwiseRelaxation(const Medium<D>& medium, const Mechani
     parts_[std::size_t(l)] = part_relaxed(mechanisms.rate(l) * interval_s / 2);
 }
 
-/// Those of a medium that relaxes all the time.
+/// Returns the shares of a medium that relaxes all the time.
 template <int D>
 CellShares StepwiseRelaxation<D>::continuous(std::size_t cell, bool isotropic) const {
   const auto [qp, qs] = qualities(*medium_, cell);

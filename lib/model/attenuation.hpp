@@ -29,17 +29,19 @@ class Mechanisms {
   int count() const { return count_; }
   double low_hz() const { return low_hz_; }
   double high_hz() const { return high_hz_; }
-  /// Of mechanism l, 1/s.
+  /// Returns the rate of mechanism l, in 1/s.
   double rate(int l) const { return rates_[std::size_t(l)]; }
   /// Least squares for a constant Q; all zero where it is infinite.
   RelaxedShares shares(double q) const;
   /// The modulus at a frequency over the unrelaxed one (Q1).
   std::complex<double> modulus(const RelaxedShares& shares, double hz) const;
-  /// The same of a plane wave whose stress relaxes every `interval_s` only, as in the scheme (Q8a).
+  /// Returns the modulus of a plane wave at a frequency over the unrelaxed one, where stress relaxes every
+  /// `interval_s` only, as in the scheme (Q8a).
   std::complex<double> stepwise_modulus(const RelaxedShares& shares, double hz, double interval_s) const;
   /// The quality factor at a frequency.
   double quality(const RelaxedShares& shares, double hz) const;
-  /// Where (Q4) holds for a speed given at a frequency: there, or for one beside the band in its middle.
+  /// Returns the frequency at which (Q4) holds for a speed given at a frequency: there, or for one beside the
+  /// band in its middle.
   double speed_known_at(double hz) const {
     return hz < low_hz_ || hz > high_hz_ ? std::sqrt(low_hz_ * high_hz_) : hz;
   }
@@ -65,7 +67,8 @@ class Mechanisms {
   RelaxedShares sum_of_losses_{}, sum_of_stores_{};
 };
 
-/// By how much phase speeds of a constant Q grow from a frequency to another (Kjartansson 1979).
+/// Returns the factor by which phase speeds of a constant Q grow from a frequency to another (Kjartansson
+/// 1979).
 double faster_by_constant_quality(double q, double from_hz, double to_hz);
 
 /// How a medium attenuates: the mechanisms, and the frequency at which waves have the speeds given.
@@ -115,7 +118,7 @@ struct ComplexStiffness {
 struct LossyWaves {
   PlaneSpeeds speed, quality;
 };
-/// Of waves whose fronts move at this angle from the axis: (V3) with complex stiffnesses.
+/// Returns the waves whose fronts move at this angle from the axis: (V3) with complex stiffnesses.
 LossyWaves lossy_waves(const ComplexStiffness& stiffness, double rho, double angle_rad);
 
 /// An unrelaxed medium whose stress relaxes at one moment of every `interval_s`, for all of that time: its

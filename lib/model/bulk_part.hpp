@@ -12,10 +12,10 @@ namespace slipwave {
 /// of isotropic rock the bulk modulus.
 struct BulkPart {
   double share = 0;
-  /// Of s_aa/sqrt(c_aa): their sum is 1.
+  /// The weights of s_aa/sqrt(c_aa): their sum is 1.
   Point<3> weights{};
 };
-/// Of a positive stiffness.
+/// Returns the bulk part of a positive stiffness.
 BulkPart bulk_part(const Elasticity<3>& orthorhombic);
 
 /// Both tensors of (Q11) in the axes of the grid, by SymmetricTensor<3>: `weights` : s is the size of the

@@ -19,7 +19,8 @@ class ClusterShares {
   void add(std::size_t part, double volume) {
     if (!from_.fracture.empty()) parts_.emplace_back(part, volume);
   }
-  /// Of the parts that were added, the material of the cell being there already; they are forgotten.
+  /// Gives a cell the cluster, share and prestress of the parts that were added, its material being there
+  /// already; the parts are forgotten.
   void put(std::size_t cell);
 
  private:

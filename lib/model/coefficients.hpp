@@ -49,8 +49,8 @@ Elasticity<D> elasticity_along_grid(const Medium<D>& medium, std::size_t cell) {
                                        : upright_elasticity<D>(material);
 }
 
-/// Of S waves with motion along `motion` in sweeps along `axis`, m/s: those of the shear stiffness of the
-/// plane of both (theory.md (O1)).
+/// Returns the speed of S waves with motion along `motion` in sweeps along `axis`, in m/s: that of the shear
+/// stiffness of the plane of both (theory.md (O1)).
 template <int D>
 double shear_speed(const Medium<D>& medium, std::size_t cell, int axis, int motion) {
   if constexpr (D == 3)

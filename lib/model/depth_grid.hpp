@@ -18,9 +18,9 @@ class DepthGrid {
   /// upwards.
   DepthGrid(std::vector<double> x_m, std::vector<double> y_m, std::vector<double> depths_m);
 
-  /// Of points X Y DEPTH in any order. Coordinates nearer to each other than 1e-6 of the way from the first
-  /// to the last count as one. Throws Error, with the line, where a node has no point or two, or the points
-  /// are no grid.
+  /// Returns the grid of points X Y DEPTH in any order. Coordinates nearer to each other than 1e-6 of the way
+  /// from the first to the last count as one. Throws Error, with the line, where a node has no point or two,
+  /// or the points are no grid.
   static DepthGrid of_points(const std::vector<NumberedPoint<3>>& points);
 
   /// Between nodes bilinear, that is along x and along y straight. `smooth`: with continuous slopes, along

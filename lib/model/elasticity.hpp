@@ -65,7 +65,7 @@ template <>
 Elasticity<2> upright_elasticity<2>(const Material& material);
 template <>
 Elasticity<3> upright_elasticity<3>(const Material& material);
-/// The same with its axes as they lie in the grid.
+/// Returns the elasticity in the axes of the grid of a rock whose own axes lie there as the material says.
 template <int D>
 Elasticity<D> elasticity_of(const Material& material);
 /// A rock whose own axes, along which it has this elasticity, are these.
@@ -80,7 +80,7 @@ Material material_of(const Elasticity<3>& elasticity, double rho);
 /// The matrix n_j C_ijkl e_l of i and k: tractions on planes with the vector n by velocity gradients along e.
 template <int D>
 SmallMatrix<std::size_t(D)> tractions(const Elasticity<D>& elasticity, const Point<D>& n, const Point<D>& e);
-/// That of Christoffel, n_j C_ijkl n_l (theory.md (V3), (O3)).
+/// Returns the Christoffel matrix, n_j C_ijkl n_l (theory.md (V3), (O3)).
 template <int D>
 SmallMatrix<std::size_t(D)> christoffel(const Elasticity<D>& elasticity, const Point<D>& n) {
   return tractions<D>(elasticity, n, n);

@@ -38,7 +38,7 @@ struct Extent {
   std::size_t least_at = 0, largest_at = 0;
 };
 
-/// Of the values of a function of the number of a column.
+/// Returns the extent of the values of a function of the number of a column.
 template <class Value>
 Extent extent_of(std::size_t columns, const Value& value) {
   Extent of;

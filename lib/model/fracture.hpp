@@ -137,10 +137,10 @@ template <int D>
 FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
                             const std::function<bool(const Point<D>&)>& inside);
 
-/// The same of the cells that lie in a region or are cut by its edge: these get the share of their volume
-/// that is inside, in Model::fracture_share, of fitted grids of the box about their centre. A share within
-/// 0.001 of 0 or 1 counts as that. Where an earlier set has part of a cell its share is added, and the set
-/// that fills more of the cell gets it, the later one where it fills half.
+/// Adds a set and marks with it the cells that lie in a region or are cut by its edge: these get the share of
+/// their volume that is inside, in Model::fracture_share; in fitted grids it is that of the box about their
+/// centre. A share within 0.001 of 0 or 1 counts as that. Where an earlier set has part of a cell its share
+/// is added, and the set that fills more of the cell gets it, the later one where it fills half.
 template <int D>
 FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set, const RegionIn<D>& region);
 

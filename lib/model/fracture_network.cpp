@@ -71,7 +71,7 @@ void check_number(const FractureNetwork& of, double expected) {
          (many ? "lower intensity or larger fractures" : "higher intensity or a larger region"));
 }
 
-/// Of the cells whose centres are in the region, m2, in 3-D m3.
+/// Returns the size of the cells whose centres are in the region, in m2, in 3-D m3.
 template <int D>
 double size_of(const Grid<D>& grid, const RegionIn<D>& region) {
   double sum = 0;

@@ -43,7 +43,7 @@ double drawn_cosine(double concentration, double share);
 /// most_fractures, an Error when hardly any point of the bounds is in the region.
 std::vector<FractureTrace<2>> drawn_fractures(const Grid<2>& grid, const Region& region,
                                               const FractureNetwork& network);
-/// The same of discs; in a fitted grid they are cut off at the box of the model.
+/// Returns discs that are drawn in this way; in a fitted grid they are cut off at the box of the model.
 std::vector<FractureTrace<3>> drawn_fractures(const Grid<3>& grid, const RegionIn<3>& region,
                                               const FractureNetwork& network);
 

@@ -65,7 +65,8 @@ struct Frame {
     }
     return {at[axis] + low, at[axis] + high};
   }
-  /// The same of the ellipse.
+  /// From where to where, along an axis of space, the line through a point is in the ellipse: low > high
+  /// where it is not.
   std::array<double, 2> ellipse_chord(const Point<D>& at, std::size_t axis) const {
     const auto local = seen(at);
     double a = 0, b = 0, c = -1;  // a t^2 + 2 b t + c = 0

@@ -80,7 +80,7 @@ double given(const Layer& layer, Property property) {
   return not_given;
 }
 
-/// Those that any layer gives.
+/// Returns the properties that any layer gives.
 std::vector<Property> given_properties(const std::vector<Layer>& layers) {
   auto all = all_properties();
   std::erase_if(all, [&](Property property) {
@@ -133,7 +133,7 @@ void define(NetcdfFile& file, const std::string& name, const std::vector<std::st
   if (!units.empty()) file.put_attribute(name, "units", units);
 }
 
-/// Of layers whose blocks are made of a log.
+/// Defines the variables of layers whose blocks are made of a log.
 void define_logs(NetcdfFile& file, const std::vector<Layer>& layers) {
   const auto samples = samples_of(layers);
   if (samples == 0) return;

@@ -12,7 +12,8 @@ class NetcdfFile;
 void define_geology(NetcdfFile& file, const Geology& geology);
 void put_geology(NetcdfFile& file, const Geology& geology);
 
-/// That of a model file; of an unknown maker where it has none. Throws Error naming file and variable.
+/// Returns the geology of a model file; its maker is unknown where the file has none. Throws Error naming
+/// file and variable.
 Geology read_geology(const NetcdfFile& file);
 
 }  // namespace slipwave

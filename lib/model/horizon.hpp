@@ -44,15 +44,15 @@ class Horizon {
   bool is_plane() const { return shape_.amplitude_m == 0 && shape_.points_m.empty() && !shape_.grid; }
   /// Only then it may change along y.
   bool is_grid() const { return shape_.grid.has_value(); }
-  /// Of the plane at x = 0.
+  /// Returns the depth of the plane at x = 0, in m.
   double depth_m() const { return shape_.depth_m; }
-  /// Where a curve or grid ends on either side, along x (axis 0) or y (1): from there on it is level.
-  /// Infinite where there is none, or it is endless.
+  /// These return where a curve or grid begins and ends along x (axis 0) or y (1), in m: beyond it is level.
+  /// They are infinite where there is none, or it is endless.
   double from_m(int axis = 0) const;
   double to_m(int axis = 0) const;
-  /// As a message names it: "400 m", "sine,400,20,500", "@top.txt".
+  /// Returns how a message names it: "400 m", "sine,400,20,500", "@top.txt".
   const std::string& name() const { return shape_.name; }
-  /// The same with its dip: "400 m dip 15".
+  /// Returns this name with its dip: "400 m dip 15".
   std::string name_with_dip() const;
 
  private:

@@ -42,8 +42,8 @@ Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field
 template <int D>
 void add_property(Medium<D>& medium, Property property, Field<D> field);
 
-/// The same all along y, `length_m` long in cells of the medium's. Throws a usage Error when that is no whole
-/// number of cells.
+/// Returns the medium in 3-D, the same all along y and `length_m` long there, in cells of its size. Throws a
+/// usage Error when that is no whole number of cells.
 Medium<3> extruded(const Medium<2>& medium, double length_m);
 
 }  // namespace slipwave

@@ -69,7 +69,7 @@ std::size_t depth_dimension(const NetcdfFile& file, const Variable& variable, bo
   return 0;
 }
 
-/// Of times, or runs of a model: no place.
+/// Whether a dimension is one of times, or of runs of a model: no place.
 bool is_no_place(const NetcdfFile& file, const std::string& dimension) {
   const auto name = lower(dimension);
   for (const char* other : {"t", "time", "twt", "ensemble", "member", "realization", "realisation"})

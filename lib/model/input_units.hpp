@@ -19,7 +19,7 @@ class InputUnits {
   /// What one of it is in SI; nothing where the list names no unit of the property's.
   std::optional<double> given(Property property) const;
   double factor(Property property) const { return given(property).value_or(1); }
-  /// The same of stiffnesses, in Pa or GPa.
+  /// Returns what the unit of stiffnesses, Pa or GPa, is in SI; 1 where the list names neither.
   double of_stiffness() const;
 
  private:

@@ -60,7 +60,7 @@ std::int64_t lines_of(const Grid<D>& grid) {
   return D == 2 ? 1 : grid.shape[1];
 }
 
-/// Where cells have their centres along y; 0 in 2-D, where nothing changes along it.
+/// Returns where cells have their centres along y, in m; 0 in 2-D, where nothing changes along it.
 template <int D>
 double y_of(const Grid<D>& grid, std::int64_t line) {
   return D == 2 ? 0. : grid.centre(1, line);
@@ -269,7 +269,7 @@ Kind kind_of(const Layer& layer) {
   return layer.material.vs == 0 && layer.gradient.vs == 0 ? Kind::fluid : Kind::solid;
 }
 
-/// Where cells of a grid lie in a pile of layers.
+/// This class finds where cells of a grid lie in a pile of layers.
 template <int D>
 class Pile {
  public:

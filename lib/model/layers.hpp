@@ -53,7 +53,7 @@ struct Layer {
 
   /// Takes the elastic ones of `others` into the material.
   void complete();
-  /// Of an optional property: what its row says where the layer does not.
+  /// Returns the value of an optional property: what its row says where the layer does not.
   double value(Property property) const;
   /// At a depth below the top; at the top where that is negative.
   Material at_depth(double below_top_m) const;
@@ -102,8 +102,8 @@ template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers,
                          Average average = Average::isotropic, const std::vector<std::int64_t>& rows = {});
 
-/// Where a sine or a curve cuts off a layer in a part of the model, layers that begin below it and a first
-/// one that begins above it: a sentence for each.
+/// Returns a sentence for each of these layers: those that a sine or a curve cuts off in a part of the model,
+/// those that begin below it, and a first one that begins above it.
 template <int D>
 std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers);
 

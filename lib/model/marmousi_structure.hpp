@@ -8,7 +8,7 @@
 
 namespace slipwave::marmousi {
 
-/// Where a point stands in the pile.
+/// The place of a point in the pile.
 struct Place {
   Unit unit = Unit::clastics;
   double depth_m = 0;  // below the sea floor, today

@@ -47,9 +47,9 @@ class Medium {
     if (std::size_t(property) < required_properties) return true;
     return !optional_.empty() && !optional_[std::size_t(property) - required_properties].empty();
   }
-  /// Those it has, in the order of the table.
+  /// Returns the properties it has, in the order of the table.
   std::vector<Property> properties() const;
-  /// Of a cell; what the property's row says where the medium lacks it.
+  /// Returns the value of a cell; what the property's row says where the medium lacks it.
   double value(Property property, std::size_t cell) const {
     return has(property) ? double((*this)[property][cell]) : value_if_absent(property);
   }

@@ -38,7 +38,8 @@ void check_dimensions(const NetcdfFile& file, const std::string& name) {
   }
 }
 
-/// Where the part of a variable that a grid stands for begins, and its lengths, the slowest axis first.
+/// Returns where the part of a variable that a grid stands for begins, and its lengths, the slowest axis
+/// first.
 template <int D>
 std::array<std::vector<std::size_t>, 2> block_of(const Grid<D>& grid) {
   std::array<std::vector<std::size_t>, 2> block;

@@ -35,7 +35,7 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file);
 /// Writes a model file to a path or "-"; it appears whole or not at all.
 template <int D>
 void write_model(const Model<D>& model, const std::string& path);
-/// The same into an output opened beforehand; commits it.
+/// Writes a model file into an output opened beforehand; commits it.
 template <int D>
 void write_model(const Model<D>& model, OutputFile& out);
 

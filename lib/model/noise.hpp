@@ -12,9 +12,10 @@ std::uint64_t mixed(std::uint64_t key, std::int64_t number);
 
 /// Element `number` of the sequence `key`, evenly distributed in [0, 1).
 double uniform(std::uint64_t key, std::int64_t number);
-/// The same in [low, high).
+/// Element `number` of the sequence `key`, evenly distributed in [low, high).
 double uniform(std::uint64_t key, std::int64_t number, double low, double high);
-/// The same with mean 0 and standard deviation 1, within -3.5 to 3.5: a scaled sum of four uniform numbers.
+/// Element `number` of the sequence `key`, with mean 0 and standard deviation 1, within -3.5 to 3.5: a scaled
+/// sum of four uniform numbers.
 double bell(std::uint64_t key, std::int64_t number);
 
 /// A smooth random curve within -1 to 1: uniform numbers at the whole x, a polynomial of fifth degree between

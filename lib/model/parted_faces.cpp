@@ -29,7 +29,7 @@ double holding(double tip_m_per_pa, double both_m_per_pa) {
   return std::isinf(tip_m_per_pa) ? 0 : 1 / (tip_m_per_pa - both_m_per_pa);
 }
 
-/// Of a set on faces, its friction; the stress of cells on both sides holds for the face between them.
+/// Returns the friction of a set on faces; the stress of cells on both sides holds for the face between them.
 FaceLaw law_of(const Model<2>& model, const SlipSystem<2>& system, int axis,
                const std::array<std::size_t, 2>& cells) {
   FaceLaw law;
@@ -96,7 +96,8 @@ void add_faces(const Model<2>& model, const FractureSet<2>& set, std::vector<Par
     add_faces(model, faces_of(model.grid(), trace), set.systems.front(), faces, left);
 }
 
-/// Where fractures share a face their compliances add up; strengths do not.
+/// Joins fractures that share a face: their compliances add up; strengths do not. Throws an Error where one
+/// of them has friction.
 void join(const Grid<2>& grid, std::vector<PartedFace<2>>& faces) {
   const auto place = [&](const PartedFace<2>& face) { return std::pair(face.axis, grid.flat(face.behind)); };
   std::stable_sort(faces.begin(), faces.end(),

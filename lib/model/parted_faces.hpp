@@ -38,7 +38,7 @@ struct PartedFace {
   }
 };
 
-/// Where a level or upright fracture lies among the faces of the whole model.
+/// This is where a level or upright fracture lies among the faces of the whole model.
 struct FacesOfTrace {
   int axis = 0;                // across it
   std::int64_t face = 0;       // before the cell of that number along the axis
@@ -49,7 +49,7 @@ struct FacesOfTrace {
 /// Throws a usage Error where it is neither level nor upright, bends, is shorter than three cells, or rows
 /// follow horizons; the grid may be part of that of the model.
 FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace);
-/// The same of a whole model; also throws where it lies along the edge of the model.
+/// Returns the faces of a fracture in a whole model; also throws where it lies along the edge of the model.
 FacesOfTrace check_on_faces(const Grid<2>& grid, const FractureTrace<2>& trace);
 
 /// Whether single fractures of a set part faces.
@@ -70,7 +70,7 @@ const FractureSet<D>* first_on_faces(const std::vector<FractureSet<D>>& sets) {
 /// where one with friction shares a face with another.
 template <int D>
 std::vector<PartedFace<D>> parted_faces(const Model<D>& model, std::int64_t* left = nullptr);
-/// Those of one set.
+/// Returns the faces that one set splits.
 template <int D>
 std::vector<PartedFace<D>> parted_faces(const Model<D>& model, const FractureSet<D>& set);
 template <>

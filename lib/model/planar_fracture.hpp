@@ -34,8 +34,8 @@ std::string fault_of_polygon(const FractureTrace<3>& polygon);
 /// What of it lies in a box; empty where nothing does.
 FractureTrace<3> clipped(FractureTrace<3> polygon, const Box<3>& box);
 
-/// Where it meets the plane across an axis at a place: lines of two points, of the two axes that are left.
-/// Its outline where all of it lies within `near_m` of that plane.
+/// Returns where it meets the plane across an axis at a place, in m: lines of two points, of the two axes
+/// that are left. It is the outline where all of the polygon lies within `near_m` of that plane.
 std::vector<FractureTrace<2>> met_by_plane(const FractureTrace<3>& polygon, int axis, double at_m,
                                            double near_m);
 

@@ -55,7 +55,7 @@ struct PointColumns {
   PointColumns() {
     for (std::size_t n = 0; n < D; ++n) coordinate[n] = n;
   }
-  /// Of a header: x, y and z or depth, or what counts upwards in place of it, in any order.
+  /// Takes the columns of a header: x, y and z or depth, or what counts upwards in place of it, in any order.
   explicit PointColumns(const std::vector<ColumnHeader>& headers) {
     std::array<bool, D> found{};
     for (std::size_t n = 0; n < headers.size(); ++n) {

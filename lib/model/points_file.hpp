@@ -22,7 +22,7 @@ struct NumberedPoint {
 template <int D>
 std::vector<NumberedPoint<D>> points_of_text(std::string_view text);
 
-/// Those of a file. Throws Error naming file and line.
+/// Returns the points of a file. Throws Error naming file and line.
 std::vector<NumberedPoint<2>> read_points(const std::string& path);
 
 /// Values on the first line that has any; 0 without one.

@@ -90,7 +90,7 @@ Prestress<D> parse_prestress(const std::string& text) {
 
 namespace {
 
-/// Those of a set, ascending; of one on faces those beside its faces without a set of their own.
+/// Returns the cells of a set, ascending; of one on faces those beside its faces without a set of their own.
 template <int D>
 std::vector<std::size_t> cells_under_prestress(const Model<D>& model, std::size_t code) {
   std::vector<std::size_t> cells;
@@ -136,7 +136,7 @@ void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestr
 
 namespace {
 
-/// The same of planes on faces.
+/// Checks the prestress of planes on faces.
 template <int D>
 void check_prestress_of_faces(const Model<D>& model) {
   for (const auto& face : parted_faces(model)) {

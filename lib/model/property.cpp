@@ -23,7 +23,8 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
           .if_absent = 0};
 }
 
-/// Of rock in 3-D; as 0 in files of models that lack it, complete_anisotropy() says what it is then.
+/// Returns the row of a parameter of rock in 3-D; as 0 in files of models that lack it, complete_anisotropy()
+/// says what it is then.
 PropertyRow in_space(const std::string& name, const std::string& long_name) {
   auto row = thomsen(name, "");
   row.long_name = long_name;
@@ -43,7 +44,7 @@ PropertyRow dip(const std::string& name, const std::string& of, const std::strin
           .if_absent = 0};
 }
 
-/// Of the axes of rock in 3-D, besides the tilt.
+/// Returns the row of an angle of the axes of rock in 3-D, besides the tilt.
 PropertyRow turn(const std::string& name, const std::string& long_name) {
   return {.name = name,
           .long_name = long_name,
@@ -67,7 +68,7 @@ PropertyRow rotation() {
   return turn("rotation", "turn of orthorhombic rock about the normal of its beds, from down dip");
 }
 
-/// Of cells that interfaces of solids cut.
+/// Returns the row of a property that only cells have which interfaces of solids cut.
 PropertyRow of_cut_cells(PropertyRow row) {
   row.computed = true;
   return row;

@@ -96,8 +96,8 @@ std::string shape_of(const Grid<D>& grid) {
 // What counts as clearly more; noise differs by some tenths.
 constexpr double much = 2;
 
-/// Of a volume: whether values are much more like what another order of its axes has next to them along those
-/// where the two orders have other neighbours.
+/// Throws a usage Error where values of a volume are much more like what another order of its axes has next
+/// to them along those where the two orders have other neighbours.
 void check_neighbours(const std::vector<char>& bytes, const Grid<3>& grid, FastAxis fast) {
   using Axes = std::array<std::size_t, 3>;  // the slowest first
   const auto distances = [&](const Axes& axes) {

@@ -49,9 +49,9 @@ void check_ends(const Grid<D>& grid) {
   }
 }
 
-/// Where rows of a column lie between horizons: at horizon n, counted from the top of the grid, n; between
-/// two of them the share of the way. The same for cells of any size, the last of which may reach below the
-/// bottom.
+/// A column holds where its rows lie between horizons: at horizon n, counted from the top of the grid, n;
+/// between two of them the share of the way. It is the same for cells of any size, the last of which may
+/// reach below the bottom.
 class Column {
  public:
   template <int D>

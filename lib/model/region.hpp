@@ -20,7 +20,7 @@ struct RegionIn {
   /// Share of the volume of a box that lies in it, from 0 to 1; absent: share_within() samples it.
   std::function<double(const Box<D>& cell)> share = {};
 };
-/// Of the x-z plane.
+/// A region of the x-z plane.
 using Region = RegionIn<2>;
 
 /// Share of the volume of a box that lies in a region: of boxes, polygons that do not cross themselves and

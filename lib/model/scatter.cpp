@@ -37,7 +37,7 @@ class Slabs {
   bool contain(const std::vector<std::size_t>& some, const Point<D>& at) const {
     return std::any_of(some.begin(), some.end(), [&](std::size_t n) { return slabs_[n].in_slab(at); });
   }
-  /// Those that may reach into a box.
+  /// Returns the slabs that may reach into a box.
   std::vector<std::size_t> beside(const Box<D>& box) const {
     Point<D> middle{}, half{};
     for (std::size_t axis = 0; axis < D; ++axis) {

@@ -44,7 +44,7 @@ void add_point(const Grid<2>& grid, const Point<2>& at, const TracePoint& point,
     }
 }
 
-/// Where points count to cells of a grid.
+/// Returns the box within which points count to cells of a grid, in m.
 Box<2> bounds_of(const Grid<2>& grid) {
   const double margin = 2 * grid.spacing_m;
   Box<2> box;

@@ -15,12 +15,12 @@ namespace slipwave {
 /// "X,Z:X,Z" in metres. Throws a usage Error.
 FractureTrace<2> parse_segment(const std::string& text);
 
-/// Those of a file: "X Z" or "X,Z" a line and vertex, in 3-D "X Y Z"; an empty line or one that begins with
-/// ">" parts two fractures; # begins a comment. Throws Error naming file and line.
+/// Returns the traces of a file: "X Z" or "X,Z" a line and vertex, in 3-D "X Y Z"; an empty line or one that
+/// begins with ">" parts two fractures; # begins a comment. Throws Error naming file and line.
 template <int D>
 std::vector<FractureTrace<D>> read_fracture_traces(const std::string& path);
 
-/// Of the line between its tips.
+/// Returns the unit normal of the line between its tips; of a closed trace that of its first piece.
 Point<2> normal_between_tips(const FractureTrace<2>& trace);
 
 /// Metres from tip to tip, along the trace.
@@ -53,7 +53,8 @@ void place_single_fractures(Model<D>& model);
 /// Throws a usage Error where a trace has less than two vertices, a piece of no length or a vertex outside
 /// the model.
 void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace);
-/// The same of a polygon (planar_fracture.hpp); in a fitted grid it is held against the box of the model.
+/// Checks a polygon in this way (planar_fracture.hpp); in a fitted grid it is held against the box of the
+/// model.
 void check_trace(const Grid<3>& grid, const FractureTrace<3>& polygon);
 
 /// Adds a set of single fractures and marks the solid cells they lie in; an earlier cluster gives way there,

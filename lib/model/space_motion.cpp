@@ -69,7 +69,7 @@ ComplexVector motion_of(const QuadraticMatrix& of, Complex down) {
   return motion;
 }
 
-/// Of any stiffness.
+/// Returns the waves of a rock of any stiffness.
 std::vector<LayerWave<3>> waves_of_any(const Material& rock, const std::array<double, 2>& along, bool down) {
   const auto stiffness = elasticity_of<3>(rock);
   const auto of = inertia(stiffness, rock.rho, along);
@@ -84,7 +84,8 @@ std::vector<LayerWave<3>> waves_of_any(const Material& rock, const std::array<do
   return {all.begin() + (down ? 0 : 3), all.begin() + (down ? 3 : 6)};
 }
 
-/// Of rock that is alike in all horizontal directions: in the plane of travel, and across it.
+/// Returns the waves of rock that is alike in all horizontal directions: in the plane of travel, and across
+/// it.
 std::vector<LayerWave<3>> waves_of_level_beds(const Material& rock, const std::array<double, 2>& along,
                                               bool down) {
   const double p = std::hypot(along[0], along[1]);

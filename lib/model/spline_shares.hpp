@@ -24,8 +24,8 @@ inline SplineShares spline_shares(double position) {
           {(0.5 - off) * (0.5 - off) / 2, 0.75 - off * off, (0.5 + off) * (0.5 + off) / 2}};
 }
 
-/// Those of a point along each axis. Cells are counted in the grid, shares computed in the larger one that it
-/// may be part of, so that they are the same numbers in both.
+/// Returns the shares of a point along each axis. Cells are counted in the grid, shares computed in the
+/// larger one that it may be part of, so that they are the same numbers in both.
 template <int D>
 std::array<SplineShares, std::size_t(D)> spline_shares(const Grid<D>& grid, const Point<D>& at_m) {
   const auto place = grid.row_coordinates(at_m);

@@ -71,7 +71,7 @@ StiffnessFault fault(Modulus of, double value, const std::string& rest) {
   return {of, "is " + gpa(value) + ", expected " + rest};
 }
 
-/// Of two axes: c_ab with c_aa, c_bb and their shear modulus.
+/// Returns the fault of two axes: c_ab with c_aa, c_bb and their shear modulus.
 std::optional<StiffnessFault> fault_of_pair(Modulus mixed, double value, double one, double other,
                                             double shear, const std::string& moduli) {
   const double most = std::sqrt(one * other);

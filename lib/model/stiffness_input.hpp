@@ -17,7 +17,7 @@ const std::array<std::string, modulus_count>& modulus_names();
 /// How one is described to users, and read from files.
 PropertyRow row_of(Modulus modulus);
 
-/// Those that are given of a rock.
+/// The moduli that are given of a rock, in Pa.
 struct GivenStiffness {
   std::array<std::optional<double>, modulus_count> moduli;
 

@@ -21,7 +21,7 @@ template <int D>
 bool is_tilted_mean(const Medium<D>& medium, std::size_t cell) {
   return medium.value(Property::cut_epsilon, cell) != 0 || medium.value(Property::cut_delta, cell) != 0;
 }
-/// Those that are, and how many.
+/// These return the cells that are tilted means, and how many there are.
 template <int D>
 std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium);
 template <int D>
@@ -33,7 +33,7 @@ std::int64_t tilted_means(const Medium<D>& medium) {
 template <int D>
 Material tilted_mean_of(const Medium<D>& medium, std::size_t cell);
 
-/// Of any cell: its rock, or what it is about the normal where it is a tilted mean.
+/// Returns the rock of any cell, or what the cell is about the normal where it is a tilted mean.
 template <int D>
 Material rock_of(const Medium<D>& medium, std::size_t cell) {
   return is_tilted_mean(medium, cell) ? tilted_mean_of(medium, cell) : material_of(medium, cell);

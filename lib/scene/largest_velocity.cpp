@@ -26,7 +26,7 @@ double length(const SymmetricTensor<D, double>& tensor) {
 /// Steps that a run takes after the last sample, which is interpolated between them, at most.
 constexpr double steps_beyond = 8;
 
-/// Of the wavelet up to some time: its integral, taken positive, and its largest value.
+/// The strength of the wavelet up to some time: its integral, taken positive, in s, and its largest value.
 struct Strength {
   double integral_s = 0, largest = 0;
 };

@@ -140,7 +140,8 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
   }
 }
 
-/// The same layers must lie along all absorbing sides, and one medium along the absorbing top and bottom.
+/// Checks that the same layers lie along all absorbing sides, and one medium along the absorbing top and
+/// bottom.
 template <int D>
 void check_layers(const Scene<D>& scene, const PlaneWaveWay<D>& way) {
   const auto& medium = scene.model.medium;
@@ -212,7 +213,7 @@ bool absorbs_at_sides(const Scene<D>& scene) {
   return any;
 }
 
-/// Of a wave that is not a vertical one in 2-D.
+/// Chooses in which medium the incident field of a wave is known that is not a vertical one in 2-D.
 template <int D>
 void choose_background(const Scene<D>& scene, const PlaneWave<D>& wave, PlaneWaveWay<D>& way) {
   constexpr int z = D - 1;

@@ -21,7 +21,7 @@ struct Subdomain {
   /// Whether neighbours are bands of other cells: nothing is read or added across the faces to them but by
   /// sweeps.
   bool other_cells = false;
-  /// Of such a face, before and behind its rows: whether rows beyond it are as high as its own.
+  /// Whether rows beyond such a face, before and behind its rows, are as high as its own.
   std::array<bool, 2> own_heights{};
   bool slips = false;         // whether anything slips in any part
   bool shear = false;         // whether any part has shear stress: solid cells or bent rows
@@ -29,9 +29,9 @@ struct Subdomain {
   bool tilted = false;        // whether any part has rock whose axes are turned, in 3-D also any in bent rows
   bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
   bool has_void = false;      // whether any part has void cells
-  /// Of several processes: askew_sets() of all parts.
+  /// The askew_sets() of all parts; set with several processes only.
   std::vector<std::array<bool, 2>> askew{};
-  /// Of a fitted grid: side_speeds() of the whole model.
+  /// The side_speeds() of the whole model; set in a fitted grid only.
   std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};
   double fastest = 0;               // largest vp of the whole model, m/s
   double fastest_across_cells = 0;  // the same of fastest_across_cells()

@@ -28,8 +28,8 @@ bool has_void(const Medium<D>& medium);
 template <int D>
 bool couples_pairs(const Medium<D>& medium, int order);
 
-/// Of each set of fractures whether its planes lie askew (lie_askew()) in any whole cell of a model, and in
-/// any that its edge cuts.
+/// Returns for each set of fractures whether its planes lie askew (lie_askew()) in any whole cell of a model,
+/// and in any that its edge cuts.
 template <int D>
 std::vector<std::array<bool, 2>> askew_sets(const Model<D>& model);
 

@@ -11,7 +11,7 @@
 namespace slipwave {
 namespace {
 
-/// When a wavelet of samples begins: before its first sample other than 0 nothing is radiated.
+/// Returns when a wavelet of samples begins, in s: before its first sample other than 0 nothing is radiated.
 double onset_s(const Wavelet& wavelet) {
   const auto* sampled = std::get_if<shape::Sampled>(&wavelet.shape());
   if (!sampled) return 0;
