@@ -21,8 +21,9 @@ namespace {
 /// Cells of the coarse grid along its longest side, at most.
 template <int D>
 constexpr std::int64_t finest = D == 2 ? 128 : 48;
-/// When waves have gone over n cells, numbers that are not zero are ahead of them by head_start n/(n + half)
-/// cells (measured: ComputedShare.IsAsExpected, CubeComputedShare.IsAsExpected). In 3-D waves weaken faster.
+/// The head start is how far numbers that are not zero are ahead of waves: by head_start n/(n + half) cells
+/// when these have gone over n cells (measured: ComputedShare.IsAsExpected, CubeComputedShare.IsAsExpected).
+/// In 3-D waves weaken faster.
 template <int D>
 constexpr double head_start = D == 2 ? 65 : 60;
 template <int D>

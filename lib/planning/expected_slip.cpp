@@ -48,7 +48,7 @@ double strain_rate_at(const Scene<D>& scene, const Source<D>& source, std::size_
   return k * (force * omega + moment_rate * k) * spreading / (rho * vp * vp);
 }
 
-/// Where a wave of a source travels in a cell.
+/// Returns the direction in which a wave of a source travels in a cell, as a unit vector.
 template <int D>
 Point<D> direction_at(const Scene<D>& scene, const Source<D>& source, std::size_t cell) {
   if (const auto* plane = std::get_if<PlaneWave<D>>(&source.mechanism)) return plane->direction;
@@ -92,7 +92,8 @@ struct Growth {
 /// Waves of so many cells are the shortest that the scheme does not damp.
 constexpr double growing_cells = 8;
 
-/// Of one system in a cell under a wave; nothing where it does not slide, or viscosity bounds the growth.
+/// Returns the growth of one system in a cell under a wave; nothing where it does not slide, or viscosity
+/// bounds the growth.
 template <int D>
 Growth growth_of(const Model<D>& model, std::size_t cell, const SlipSystem<D>& system,
                  SymmetricTensor<D, double> stress, double hz, const BandGrowth& shortest) {

@@ -60,11 +60,11 @@ std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const Accurac
 template <int D>
 double nearest_receiver_m(const SceneRuns<D>& runs);
 
-/// The same setting with edges twice as wide; nothing where there are no such edges.
+/// Returns the setting with edges twice as wide; nothing where no edge absorbs.
 template <int D>
 std::optional<AccuracySetting> with_wider_edges(const SceneRuns<D>& runs, AccuracySetting setting);
 
-/// Those of a survey's shots that are measured: all of few, else the two that are farthest apart and, of
+/// Returns the shots of a survey that are measured: all of few, else the two that are farthest apart and, of
 /// many, the one farthest from both; what differs in kind or wavelet is farther than all places.
 template <int D>
 std::vector<std::size_t> representative_shots(const Survey<D>& survey);

@@ -33,7 +33,7 @@ constexpr double steps_without_gain = 10000;
 /// Fewer cells per wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;
 
-/// Of all cells' slowest waves the one that fewest cells resolve; on a regular grid the slowest.
+/// Returns the one of all cells' slowest waves that fewest cells resolve; on a regular grid the slowest.
 template <int D>
 SlowestWave least_resolved(const Medium<D>& medium) {
   if (!medium.grid().rows) return slowest_wave(medium);
@@ -137,7 +137,7 @@ std::int64_t shared_bytes(const Scene<D>& scene) {
   return bytes;
 }
 
-/// Of the shot that records most.
+/// Returns the bytes of the traces of the shot that records most.
 template <int D>
 std::int64_t trace_bytes(const Scene<D>& scene) {
   std::size_t most = 0;
@@ -287,7 +287,7 @@ std::vector<std::string> shown_bands(const Plan<D>& plan) {
   return bands;
 }
 
-/// Of sentences on fracture sets the first, and that there are others.
+/// Reports the first of some sentences on fracture sets, and that there are others.
 void report_first(const std::string& key, const std::vector<std::string>& sentences, Report& report) {
   if (sentences.empty()) return;
   const auto others = sentences.size() - 1;

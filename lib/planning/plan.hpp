@@ -18,8 +18,9 @@ struct Plan {
   std::vector<PlannedEntry> entries;
   std::int64_t interface_cells =
       0;  // with stencils of their own beside strong interfaces and voids, all axes and waves
-  /// Of a shot, with the traces of all components that it records; of those traces; of the model and the
-  /// program, which all shots share; and what a shot takes for a moment beside its fields, before it runs.
+  /// The memory of a shot, with the traces of all components that it records; of those traces; of the model
+  /// and the program, which all shots share; and what a shot takes for a moment beside its fields, before it
+  /// runs.
   std::int64_t memory_bytes = 0, trace_bytes = 0, shared_bytes = 0, building_bytes = 0;
   double highest_hz = 0;
   SlowestWave slowest;

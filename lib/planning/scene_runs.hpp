@@ -29,7 +29,7 @@ struct SceneInCells {
 /// What of a way of computing a scene is changed to see whether it matters.
 enum class Variation { none, fitted };
 
-/// Where sources and receivers may come to stand in cells of another size.
+/// This says where sources and receivers may come to stand in cells of another size.
 enum class Places { in_the_same_matter, anywhere };
 
 /// A scene run with one setting.
