@@ -13,7 +13,7 @@
 namespace slipwave {
 namespace {
 
-/// As --kind takes it: what is injected with the samples of a component as its wavelet.
+/// Returns, as --kind takes it, what is injected with the samples of a component as its wavelet.
 std::string kind_of(Component component, int dimension) {
   const bool space = dimension == 3;
   switch (component) {

@@ -11,7 +11,8 @@ std::string name_for(std::string pattern, std::size_t shot, const std::string& c
 void check_marks(const std::string& pattern);
 /// Whether a pattern holds the mark, "{shot}" or "{component}".
 bool holds(const std::string& pattern, const std::string& mark);
-/// Where what an unstable run recorded is kept: "dir/unstable-out.sgy" for "dir/out.sgy".
+/// Returns the name under which what an unstable run recorded is kept: "dir/unstable-out.sgy" for
+/// "dir/out.sgy".
 std::string unstable_name(std::string pattern);
 
 }  // namespace slipwave

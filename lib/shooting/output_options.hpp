@@ -12,8 +12,8 @@
 
 namespace slipwave {
 
-/// Where the outputs of a run go and how it is organised, as sw-shoot's options say it. Names may hold {shot}
-/// and {component}; what they do not tell apart goes into one file.
+/// These options say where the outputs of a run go and how it is organised, as sw-shoot takes them. Names may
+/// hold {shot} and {component}; what they do not tell apart goes into one file.
 struct OutputOptions {
   std::string traces = "-";
   std::string revision = "auto";  // of SEG-Y: 0, 1, 2, or 1 where it holds the sampling and 2 where not
@@ -34,7 +34,7 @@ struct OutputOptions {
   std::size_t number_of(std::size_t shot) const {
     return shot_labels.empty() ? shot + std::size_t(first_shot - 1) : std::size_t(shot_labels[shot - 1]);
   }
-  /// Of files with the traces of such a recording, Seismic Unix aside.
+  /// Returns the format of files with the traces of such a recording, Seismic Unix aside.
   segy::FileFormat trace_format(const Recording& recording) const;
   /// Throws a usage Error on options that contradict each other or cannot hold all shots.
   template <int D>

@@ -19,7 +19,7 @@ class RankGroups {
 
   /// Whether this is the one that writes.
   bool leads() const { return all_.number() == 0; }
-  /// Those that shoot a shot with this one; null where it does so alone.
+  /// Returns the ranks that shoot a shot with this one; null where it does so alone.
   Ranks* group() const { return group_.get(); }
   std::size_t groups() const { return groups_; }
 

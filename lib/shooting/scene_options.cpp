@@ -218,7 +218,7 @@ AttenuationChoice SceneOptions::attenuation() const {
   return choice;
 }
 
-/// Of wavelets that a record cuts off, each once.
+/// Adds warnings of wavelets that a record cuts off, each once.
 template <int D>
 void add_wavelet_warnings(std::vector<std::string>& warnings, const Scene<D>& scene) {
   const double before_s = scene.recording.before_s;
@@ -253,7 +253,7 @@ std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   }
 }
 
-/// Of options that change nothing in this scene.
+/// Returns sentences on options that change nothing in this scene.
 template <int D>
 std::vector<std::string> SceneOptions::idle(const Scene<D>& scene) const {
   std::vector<std::string> sentences;

@@ -81,7 +81,7 @@ void check_channels(const std::vector<TableReceiver>& receivers, const std::stri
   }
 }
 
-/// The same receivers for all shots: one run, as many shots as there are.
+/// Adds receivers that are the same for all shots: one run, as many shots as there are.
 void add_common_receivers(GivenSurvey& survey, const Receivers& receivers) {
   check_channels(receivers.of_all, "");
   const bool channels = !receivers.of_all.empty() && receivers.of_all.front().channel != 0;

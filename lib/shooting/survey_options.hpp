@@ -10,7 +10,7 @@
 
 namespace slipwave {
 
-/// Where sources and receivers are, as options of the tools say it.
+/// These options say where sources and receivers are, as the tools take them.
 struct SurveyOptions {
   std::vector<std::string> sources, receivers;  // places, or @FILE: tables
   std::string inject;                           // instead of sources: a gather whose traces are sources

@@ -103,7 +103,8 @@ void SurveyRun<D>::simulate_all() {
   state_.close();
 }
 
-/// Those whose outputs are gone, though an earlier run finished them, too.
+/// Returns the shots that are left; those whose outputs are gone, though an earlier run finished them, are
+/// among them.
 template <int D>
 std::vector<std::size_t> SurveyRun<D>::unfinished_shots() {
   const auto outputs_exist = [&](std::size_t shot) {
@@ -185,7 +186,7 @@ void SurveyRun<D>::finish_outputs(std::span<const std::size_t> some, const std::
   if (traces_.one_per_shot()) traces_.write(state_, shots());
 }
 
-/// When a shot has become unstable: complete files of other shots are put in place, all the rest under other
+/// Puts complete files of other shots in place when a shot has become unstable, and all the rest under other
 /// names where that is wanted. Returns these names; what cannot be written is a warning.
 template <int D>
 std::vector<std::string> SurveyRun<D>::save_unstable(const Unstable& error) {

@@ -24,9 +24,9 @@ namespace slipwave {
 template <int D>
 class SurveyRun {
  public:
-  /// Of a checked scene. Throws an Error where the checkpoint is not one of this run. With `groups` (may be
-  /// null) the scene is what this process holds of it, and the process that leads writes. All references must
-  /// outlive the run.
+  /// Prepares the run of a checked scene. Throws an Error where the checkpoint is not one of this run. With
+  /// `groups` (may be null) the scene is what this process holds of it, and the process that leads writes.
+  /// All references must outlive the run.
   SurveyRun(const Scene<D>& scene, const OutputOptions& options, const Provenance& provenance,
             const Messages& messages, const RankGroups* groups);
 
