@@ -20,7 +20,8 @@ struct Fibre {
   bool along_path = false;  // then without angles
 };
 
-/// Where the velocity takes part in the mean strain rate of a gauge: the sum of weight . v over its points.
+/// A point at which the velocity takes part in the mean strain rate of a gauge, which is the sum of weight .
+/// v over its points.
 template <int D>
 struct GaugePoint {
   Point<D> at_m{};

@@ -13,13 +13,13 @@ namespace slipwave {
 /// What fills a cell, as far as depths are measured from it.
 enum class Matter : std::uint8_t { nothing, fluid, rock };
 
-/// Where the ground and the sea floor of a model are: rows of faces in each column. On fitted grids depths
-/// between the columns follow the horizons; on regular ones a column is level.
+/// This class says where the ground and the sea floor of a model are: rows of faces in each column. On fitted
+/// grids depths between the columns follow the horizons; on regular ones a column is level.
 template <int D>
 class Ground {
  public:
   Ground() = default;
-  /// Of a whole model; nothing is known before its rows are seen.
+  /// Prepares the ground of a whole model; nothing is known before its rows are seen.
   explicit Ground(const Grid<D>& whole);
   /// Looks at a row of cells, one after the other from the top; returns whether all columns are known.
   bool see_row(std::int64_t row, const std::function<Matter(const Index<D>&)>& matter);

@@ -152,7 +152,7 @@ std::vector<CellWeight> weights_round(double position, const AxisCells& usable, 
   return found;
 }
 
-/// Of the Lagrange polynomial i through `count` samples 0, 1, ..: its value at x.
+/// Returns the value at x of the Lagrange polynomial i through `count` samples 0, 1, ...
 double lagrange(int i, int count, double x) {
   double value = 1;
   for (int j = 0; j < count; ++j)

@@ -88,7 +88,7 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
 /// position and usable cells as for axis_weights(), narrowest_spread of them or more.
 std::vector<CellWeight> spread_weights(double position, const AxisCells& usable);
 
-/// The same at a point in space: products of the axes' weights.
+/// Returns such weights at a point of the plane or of space: products of the axes' weights.
 template <int D>
 std::vector<PointWeight<D>> spread_point_weights(const Grid<D>& grid, const Point<D>& point_m,
                                                  const std::array<AxisCells, std::size_t(D)>& usable);
@@ -106,8 +106,8 @@ struct TimeWeights {
 /// low <= position <= high; on a sample that one alone has weight, 1.
 TimeWeights time_weights(double position, std::int64_t low, std::int64_t high);
 
-/// The same for the derivative at `position`, per sample, and for the integral over from .. to, in samples,
-/// where no sample lies between them: of the same polynomial.
+/// These return the weights for the derivative at `position`, per sample, and for the integral over from ..
+/// to, in samples, where no sample lies between them: of such polynomials.
 TimeWeights time_slopes(double position, std::int64_t low, std::int64_t high);
 TimeWeights time_integrals(double from, double to, std::int64_t low, std::int64_t high);
 

@@ -21,7 +21,7 @@ struct GivenDepth {
 /// "12.5", "surface", "surface+2.5", "floor-1". Throws a usage Error.
 GivenDepth parse_depth(std::string_view text);
 
-/// Where a source or a receiver stands, as it was given.
+/// The place of a source or a receiver, as it was given.
 struct Place {
   std::array<double, 3> at_m{};  // x, y, z; y is 0 in 2-D
   DepthFrom depth_from = DepthFrom::datum;

@@ -23,7 +23,7 @@ std::string place_text(double x, double y, bool with_y) {
   return "x=" + shown(x) + (with_y ? " y=" + shown(y) : "");
 }
 
-/// As people write places on maps: 6000000, not 6e+06.
+/// Returns a coordinate as people write places on maps: 6000000, not 6e+06.
 std::string map_text(double value) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed);

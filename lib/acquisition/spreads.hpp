@@ -49,9 +49,9 @@ class Spreads {
   std::string name_of_source(std::size_t shot, std::size_t which) const;
   /// What to try where the survey misses the model; empty where it was not given on a map.
   std::string remedy() const;
-  /// By how much places were moved to come onto a section, m at most.
+  /// Returns by how much places were moved to come onto a section, in m at most.
   double moved_m() const;
-  /// By how much that changed distances of receivers from their sources, m at most.
+  /// Returns by how much that changed distances of receivers from their sources, in m at most.
   double offset_change_m() const;
 
  private:

@@ -18,7 +18,7 @@ bool looks_like_sps(std::string_view first);
 /// else in metres. Throws Error naming file, line and columns.
 GivenSurvey read_sps(const std::vector<std::string>& paths);
 
-/// The same of texts; `names` are those of the files.
+/// Returns the survey that texts give; `names` are those of the files.
 GivenSurvey survey_of_sps(const std::vector<std::string>& names, const std::vector<std::string>& texts);
 
 }  // namespace slipwave

@@ -71,7 +71,8 @@ struct Survey {
   std::vector<Point<D>> receivers_m;  // of every shot, where there are no spreads
   /// Further sources of a shot that are recorded with its first (a blended shot); empty: none of any.
   std::vector<std::vector<Source<D>>> blended = {};
-  /// Of shots with receivers, channels or numbers of their own; none: channels count from 1, shots too.
+  /// The spreads of shots with receivers, channels or numbers of their own; none: channels count from 1,
+  /// shots too.
   std::optional<Spreads<D>> spreads = {};
   /// What a place is that cannot be in the model: options' misuse, or wrong data of files.
   ErrorKind misplaced = ErrorKind::data;
@@ -127,7 +128,8 @@ template <int D>
 struct PointInjection {
   Point<D> force{};
   SymmetricTensor<D, double> moment_rate;
-  /// The same for every direction: it must not make shear of its own, however it is spread over cells.
+  /// Whether it is the same for every direction: it must not make shear of its own, however it is spread over
+  /// cells.
   bool isotropic = false;
 };
 

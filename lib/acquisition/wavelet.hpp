@@ -94,7 +94,7 @@ class Wavelet {
   /// its energy (W5). 0.01: 2.5 F for Ricker, 8.8 F for one cycle of a sine (its kinks).
   double highest_frequency_hz(double share = 0.01) const;
   const Shape& shape() const { return shape_; }
-  /// As it was asked for: "ricker:30".
+  /// Returns the wavelet as it was asked for: "ricker:30".
   const std::string& text() const { return text_; }
 
  private:
