@@ -33,7 +33,7 @@ class ByteSource {
   /// count is at most peek_limit. Valid until the next call.
   static constexpr std::size_t peek_limit = 1 << 17;
   std::span<const std::uint8_t> peek(std::size_t count);
-  /// As peek(), and takes them: bytes that need no copy of their own.
+  /// Returns what peek() does, and takes these bytes: they need no copy of their own.
   std::span<const std::uint8_t> take(std::size_t count);
   /// Takes into.size() bytes, fewer only at the end; says how many.
   std::size_t read(std::span<std::uint8_t> into);

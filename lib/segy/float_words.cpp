@@ -7,7 +7,8 @@ namespace slipwave::segy {
 namespace {
 
 constexpr int ibm = 1, ieee = 5;  // codes
-/// Of so many IEEE words all have the digit in one of 15 million files: (15/16)^256 = 7e-8.
+/// The number of different words that are enough, and the most that are kept: so many IEEE words all have the
+/// digit in one of 15 million files, (15/16)^256 = 7e-8.
 constexpr std::size_t enough = 256, most = 4096;
 /// Powers of 16 that the samples must span for these bits to be as good as drawn.
 constexpr std::size_t least_exponents = 4;

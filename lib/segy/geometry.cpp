@@ -58,7 +58,7 @@ class ScalarChoice {
   std::array<Candidate, 5> candidates_ = {{{1}, {-10}, {-100}, {-1000}, {-10000}}};
 };
 
-/// Where lines of receivers lie that run along one axis, counted along the other.
+/// This class finds lines of receivers that run along one axis: it holds where they lie along the other.
 class Lines {
  public:
   /// Receivers that follow each other belong to a line where nothing but the place along it differs.

@@ -14,8 +14,8 @@ struct History {
   bool complete = true;  // false: the textual header had no room for all of them
 };
 
-/// Of the user stanza ((slipwave: history)) in the extended textual headers, or else of the lines of the
-/// textual header that begin with the name of a tool.
+/// Returns the history of the user stanza ((slipwave: history)) in the extended textual headers, or else of
+/// the lines of the textual header that begin with the name of a tool.
 History history_of(const FileHeader& header);
 
 /// What the textual header alone says.

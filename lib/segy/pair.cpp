@@ -10,7 +10,7 @@ PairReader::PairReader(Reader& a, Reader& b) : a_(a), b_(b) {
   if (!differs.empty()) throw Error(b.name() + ": " + differs + " as in " + a.name());
 }
 
-/// The same words that mean the same: most pairs need no further look.
+/// Whether headers have the same words that mean the same: most pairs need no further comparison.
 template <class AnyTrace>
 bool PairReader::equal_headers(const AnyTrace& a, const AnyTrace& b) const {
   const FileHeader& of_a = a_.header();

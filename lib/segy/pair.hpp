@@ -12,7 +12,7 @@ class PairReader {
   PairReader(Reader& a, Reader& b);
   /// The next trace of each; false after the last ones.
   bool next(Trace& a, Trace& b) { return next_of_both(a, b); }
-  /// The same without decoding the samples.
+  /// Reads the next traces without decoding their samples.
   bool next(RawTrace& a, RawTrace& b) { return next_of_both(a, b); }
 
  private:

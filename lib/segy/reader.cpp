@@ -14,7 +14,7 @@
 namespace slipwave::segy {
 namespace {
 
-/// Of a pipe memory grows by so much at a time.
+/// The steps by which memory for what comes from a pipe grows, in bytes.
 constexpr std::uint64_t smallest_step = 1 << 20;
 constexpr std::uint64_t largest_step = 1 << 25;
 /// Looked at for positions, beside the first one.
@@ -81,7 +81,7 @@ bool Reader::trace_headers_fill(std::uint64_t size) const {
   return at == size;
 }
 
-/// As the file header says, unless its traces may differ and this one says how many it has.
+/// Returns as many as the file header says, unless its traces may differ and this one says how many it has.
 std::int64_t Reader::extra_headers_of(const std::optional<ExtensionWords>& extension) const {
   const std::int64_t most = header_.extra_headers;
   if (!extension || header_.binary.get("fixed") == 1) return most;
@@ -210,7 +210,7 @@ std::vector<std::string> Reader::doubts() const {
   return sentences;
 }
 
-/// Of the first traces; later ones have the same format.
+/// Notes what the first traces leave in doubt; later ones have the same format.
 void Reader::see_doubts(const RawTrace& trace) {
   constexpr std::int64_t first_traces = 64;
   if (delivered_ <= first_traces) words_.see(trace.samples, *header_.format, header_.endian);

@@ -60,7 +60,7 @@ class Reader {
   /// traces than it says; with ReadOptions::to_damage it returns false there, too. Zeros behind the last
   /// trace that are no whole number of traces, of a file whose trace headers are not zero, are such an end.
   bool next(Trace& trace);
-  /// The same without decoding the samples.
+  /// Reads the next trace without decoding its samples.
   bool next(RawTrace& trace);
   /// What is wrong with the end of the input, once next() has come to it ("a.sgy: ends within trace 4: ...").
   const std::optional<std::string>& damage() const noexcept { return damage_; }

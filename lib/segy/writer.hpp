@@ -52,10 +52,9 @@ bool needs_revision_2(const SampleAxis& axis);
 /// Sentences about what some readers will not take (samples or interval above 32767).
 std::vector<std::string> warnings_of(const FileInfo& info);
 
-/// The same kind of file as was read, for a tool that changes samples: revision, byte order and SU-ness
-/// kept, samples IEEE floats, or doubles where the input's were doubles or wider integers. As info_as()
-/// otherwise (conversion.hpp).
-/// A name that ends in .su makes it Seismic Unix.
+/// Returns the info of a file of the same kind as was read, for a tool that changes samples: revision, byte
+/// order and SU-ness kept, samples IEEE floats, or doubles where the input's were doubles or wider integers.
+/// The rest is as in info_as() (conversion.hpp). A name that ends in .su makes it Seismic Unix.
 FileInfo info_like(const Reader& reader, const std::string& entry, const std::string& output = "");
 
 /// Writes traces as they come, in the memory of one. Every number that goes into the file header is in
@@ -71,7 +70,8 @@ class Writer {
   void write(const TraceHeader& header, std::span<const double> samples);
   /// A trace of another file, its headers carried along; counters, ns and dt are made to fit.
   void write(const Trace& trace, bool from_su);
-  /// The same of samples in the format and byte order of the file, or those that FileInfo says of them.
+  /// Writes such a trace whose samples are in the format and byte order of the file, or in those that
+  /// FileInfo says of them.
   void write(const RawTrace& trace, bool from_su);
 
   std::int64_t written() const noexcept { return written_; }
