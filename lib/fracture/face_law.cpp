@@ -27,14 +27,14 @@ Piece relax(double from, double to, double rate, double time) {
   return {to + (from - to) * (1 - lost), (to + (from - to) * mean_kept) * time};
 }
 
-/// When a traction that goes from one side of a bound to the other comes there, at that rate; infinite where
-/// it does not.
+/// Returns the time at which a traction that goes from one side of a bound to the other comes there, at that
+/// rate; infinite where it does not.
 double time_to(double bound, double from, double to, double rate) {
   const double left = (bound - to) / (from - to);
   if (!(left > 0) || left >= 1) return std::numeric_limits<double>::infinity();
   return -std::log(left) / rate;
 }
-/// The same of a bound that is not behind it, even where it stands there already but for rounding.
+/// Returns this time for a bound that is not behind it, even where it stands there already but for rounding.
 double time_on_to(double bound, double from, double to, double rate) {
   const double left = (bound - to) / (from - to);
   return left > 0 ? -std::log(std::min(left, 1.)) / rate : std::numeric_limits<double>::infinity();

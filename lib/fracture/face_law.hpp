@@ -49,11 +49,11 @@ struct FaceMotion {
   bool loose = false;        // slides or stands open at the end
 };
 
-/// Of a plane under a traction across it, that has opened so far: it carries no tension.
+/// Returns the motion of a plane under a traction across it, that has opened so far: it carries no tension.
 FaceMotion part_face(const FaceLoad& load, double opening);
 
-/// Of a plane along which a traction of more than the strength slides; `drag` is what the viscosity makes of
-/// the strength beside Z.
+/// Returns the motion of a plane along which a traction of more than the strength slides; `drag` is what the
+/// viscosity makes of the strength beside Z.
 FaceMotion slide_face(const FaceLoad& load, double slip, double strength, double drag);
 
 /// How far a plane has slid before a sweep, and Z.
@@ -68,7 +68,7 @@ struct FaceSlip {
 FaceMotion slide_face(const FaceLaw& law, const FaceLoad& load, const FaceMotion& across,
                       const FaceSlip& so_far);
 
-/// Of a spring alone (S35).
+/// Returns the motion of a spring alone (S35).
 FaceMotion give_face(const FaceLoad& load);
 
 }  // namespace slipwave

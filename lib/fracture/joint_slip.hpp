@@ -54,7 +54,8 @@ class JointSlip {
 
   JointSlip(SlipCorrection correction, std::vector<System> systems)
       : correction_(correction), systems_(std::move(systems)) {}
-  /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the prestress.
+  /// Lets the planes of one cell slip at the end of an elastic step: `s` is its stress, `total` that with the
+  /// prestress.
   void slip(Stress<D, Real>& s, Stress<D, Real> total, const Cell& cell) const {
     const Stress<D, Real> before = total;
     if (correction_ == SlipCorrection::exponential)
@@ -79,7 +80,7 @@ class JointSlip {
   }
 
  private:
-  /// Of one system.
+  /// The traction on the planes of one system, its size, the normal stress and the strength.
   struct Resolved {
     Traction<D, Real> tau;
     Real size, s_n, strength;

@@ -24,14 +24,14 @@ struct LinearCompliance {
   }
 };
 
-/// The same as strain of the cell for traction, 1/Pa, and traction for strain rate, Pa s.
+/// The compliance of a cell: strain for traction, 1/Pa, and the damping: traction for strain rate, Pa s.
 struct CellCompliance {
   double normal = 0, tangential = 0;
   double normal_damping = 0, tangential_damping = 0;
 };
 
-/// Of planes in rock with these Lame parameters, Pa. Cracks add to the compliance what Hudson's (1981) theory
-/// takes off the stiffness in first order of their density (S21).
+/// Returns the compliance of planes in rock with these Lame parameters, Pa. Cracks add to the compliance what
+/// Hudson's (1981) theory takes off the stiffness in first order of their density (S21).
 inline CellCompliance compliance_in(const LinearCompliance& of, double lambda, double mu) {
   if (of.crack_density > 0) {
     const double stiffness_of_fill =
@@ -44,7 +44,7 @@ inline CellCompliance compliance_in(const LinearCompliance& of, double lambda, d
           of.normal_dashpot_pa_s_m * of.spacing_m, of.tangential_dashpot_pa_s_m * of.spacing_m};
 }
 
-/// The same of planes in a share of the cell, which carry the traction of all of it (S38).
+/// Returns the compliance of planes in a share of the cell, which carry the traction of all of it (S38).
 inline CellCompliance in_share(const CellCompliance& of, double share) {
   return {of.normal * share, of.tangential * share, of.normal_damping / share, of.tangential_damping / share};
 }

@@ -64,9 +64,10 @@ template <class Real>
   return slips ? lesser(strength + strength * over, size) : size;
 }
 
-/// The same of two systems that share a shear stress: |tau| + theta_a G_a + theta_b G_b = size. The left side
-/// grows with |tau| in straight pieces: up to the lower strength, up to the higher one, beyond.
-/// `loss_b` becomes what the second one takes off (of dry systems of equal strength the first takes all).
+/// What slip of two systems that share a shear stress makes of |tau_e| = size: |tau| + theta_a G_a + theta_b
+/// G_b = size. The left side grows with |tau| in straight pieces: up to the lower strength, up to the higher
+/// one, beyond. `loss_b` becomes what the second one takes off (of dry systems of equal strength the first
+/// takes all).
 template <class Real>
 [[gnu::always_inline]] inline Real relaxed_by_two(Real size, Real strength_a, Real strength_b,
                                                   Real relaxation_a, Real relaxation_b, Real& loss_b) {
