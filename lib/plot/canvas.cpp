@@ -91,7 +91,8 @@ std::string svg_text(const Spot& at, double y, const std::string& text, const Te
   return attributes + xml_text(legible(text)) + "</text>\n";
 }
 
-/// Of equal area to the eye: a corner stands farther out than a round edge.
+/// Returns the outline of a marker; all shapes are of equal area to the eye: a corner stands farther out than
+/// a round edge.
 std::vector<Spot> outline(Marker shape, double size) {
   const double radius = size * (shape == Marker::circle ? 0.88 : 1.1);
   constexpr double pi = std::numbers::pi;

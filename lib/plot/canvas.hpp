@@ -13,8 +13,8 @@
 
 namespace slipwave::plot {
 
-/// Where a text stands to its spot: begins, has its middle or ends there; the same for up and down, where
-/// `baseline` puts its line on the spot.
+/// The alignment of a text to its spot: it begins, has its middle or ends there; likewise for up and down,
+/// where `baseline` puts its line on the spot.
 enum class Across { begin, middle, end };
 enum class Down { top, middle, baseline, bottom };
 
@@ -91,7 +91,7 @@ class Canvas {
     unclip();
   }
 
-  /// Where the texts drawn so far stand: boxes as wide as their lines and as high as their capitals.
+  /// Returns where the texts drawn so far stand: boxes as wide as their lines and as high as their capitals.
   const std::vector<Rect>& words() const { return words_; }
 
   /// The file. Once, at the end.

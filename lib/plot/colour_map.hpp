@@ -23,7 +23,7 @@ class ColourMap {
 
   /// Numbers outside 0 .. 1 take the end's colour; NaN is no_data.
   Colour at(double number) const;
-  /// The same as 0xffRRGGBB.
+  /// Returns this colour as 0xffRRGGBB.
   std::uint32_t pixel(double number) const;
   /// Has a middle that stands for zero?
   bool diverging() const { return diverging_; }

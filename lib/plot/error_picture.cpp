@@ -113,7 +113,7 @@ struct Drawing {
   std::vector<LegendEntry> legend;
 };
 
-/// Where `value` stands among `known`, at whose end it is put when it is new.
+/// Returns the place of `value` among `known`, at whose end it is put when it is new.
 template <class Value>
 std::size_t index_in(std::vector<Value>& known, const Value& value) {
   const auto at = std::size_t(std::find(known.begin(), known.end(), value) - known.begin());

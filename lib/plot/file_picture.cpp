@@ -67,7 +67,7 @@ Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& option
   return picture;
 }
 
-/// Those of a choice. Throws a usage Error for several where a picture shows one.
+/// Returns the spectra of a choice. Throws a usage Error for several where a picture shows one.
 Spectra spectra_of(const NetcdfFile& file, const ComponentChoice& choice) {
   const auto& wanted = choice.components;
   if (wanted.size() < 2) return read_spectra(file, wanted.empty() ? std::nullopt : std::optional(wanted[0]));
@@ -103,7 +103,8 @@ Page on_plane(Page page, const std::optional<Slice>& slice) {
   return page;
 }
 
-/// Where the rock attenuates, as sw-shoot lets it for a wavelet of the frequency given.
+/// Returns the attenuation that sw-shoot takes for a wavelet of the frequency given, where the rock
+/// attenuates; else nothing.
 std::optional<Attenuation> attenuation_of(const RockAt& rock, const std::optional<double>& reference_hz) {
   constexpr int mechanisms = 3;
   if (!rock.attenuates()) return {};

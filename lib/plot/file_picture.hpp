@@ -47,7 +47,7 @@ Page page_of(const PlotOptions& options);
 /// can be drawn, a usage Error for several files of a kind that is drawn one at a time.
 Picture picture_of(const PlotOptions& options, const Page& page);
 
-/// Of the files named, the one that ends as movies do becomes the output. Throws a usage Error where there is
+/// Makes the one of the files named that ends as movies do the output. Throws a usage Error where there is
 /// one already.
 void take_movie_name(PlotOptions& options);
 

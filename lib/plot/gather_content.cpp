@@ -60,7 +60,7 @@ bool apart(const GatherContent& content, std::int64_t cell) {
          std::any_of(traces.line_starts.begin(), traces.line_starts.end(), begins);
 }
 
-/// Of pixels along an edge of the panel.
+/// A row of pixels along an edge of the panel, in pt.
 struct Pixels {
   double begin_pt = 0, end_pt = 0;
   int count = 0;

@@ -39,7 +39,7 @@ struct NamedGather {
 /// difference of any number but two of a component, and for lines of different units in one panel.
 Picture draw_gathers(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look, Page page);
 
-/// The same of one gather.
+/// Draws one gather.
 Picture draw_gather(GatherSection section, const GatherStyle& style, const Look& look, Page page);
 
 }  // namespace slipwave::plot

@@ -37,7 +37,8 @@ struct Page {
 /// 150 for PNG, else 300. Throws a usage Error for what is no size, below 4 x 3 cm or above 20000 pixels.
 Page page_of(Format format, const PageSettings& settings);
 
-/// The same page, the history of its input before its own. Bytes that are no text become question marks.
+/// Returns the page with the history of its input before its own. Bytes that are no text become question
+/// marks.
 Page with_history(Page page, const std::string& of_input);
 
 /// Throws a usage Error when the page is too large to draw.

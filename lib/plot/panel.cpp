@@ -136,7 +136,7 @@ void Panel::lay_out(const Rect& room) {
   }
 }
 
-/// Where words turned upwards beside the data may begin: below the title.
+/// Returns where words turned upwards beside the data may begin, in pt: below the title.
 double Panel::highest_word_pt() const {
   return room_.y + edge_pt + double(title_.size()) * line_height * title_pt(text_pt_);
 }

@@ -40,7 +40,7 @@ class Panel {
   /// be.
   static void fit_page(Page& page, const PanelSpec& spec, double height_per_width);
 
-  /// Where the data go; its edges lie between pixels.
+  /// Returns the rectangle that the data go into; its edges lie between pixels.
   const Rect& plot() const { return plot_; }
   double x(double value) const { return x_scale_.place(value); }
   double y(double value) const { return y_scale_.place(value); }

@@ -12,7 +12,7 @@ namespace slipwave::plot {
 /// SVG (title and desc elements); a PDF has them from the start and is returned as it is.
 std::vector<char> with_provenance(std::vector<char> bytes, const Page& page);
 
-/// As content of an element of XML.
+/// Returns a text as the content of an element of XML.
 std::string xml_text(const std::string& text);
 
 }  // namespace slipwave::plot

@@ -28,7 +28,7 @@ struct Mix {
   Cells cells;
   std::optional<double> share = {};
 };
-/// The same for cells whose values stand at `middles`.
+/// Returns what each of these pixels takes of cells whose values stand at `middles`.
 std::vector<Mix> mixes_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
                                  const std::vector<double>& edges, const std::vector<double>& middles);
 /// Middles of cells between these edges.

@@ -63,7 +63,7 @@ Curves speeds_by_angle(const Material& material) {
   });
 }
 
-/// Of all three waves in space, in the upright plane of an axis.
+/// Returns the phase speeds of all three waves in 3-D, in the upright plane of an axis.
 Curves speeds_in_space(const Material& material, std::size_t axis) {
   auto x = angles();
   if (axis == 1) x.name = "angle of the front from the vertical, towards +y";
@@ -94,7 +94,7 @@ class Relaxing {
     unrelax(medium_, attenuation);
     relaxation_.emplace(medium_, attenuation.mechanisms, 0);
   }
-  /// Of waves whose fronts move at this angle from the axis of the rock.
+  /// Returns the waves whose fronts move at this angle from the axis of the rock.
   LossyWaves waves(double hz, double angle_rad = 0) const {
     return lossy_waves(relaxation_->stiffness(0, hz), double(medium_.rho[0]), angle_rad);
   }

@@ -130,7 +130,7 @@ ModelSection begun_section(const NetcdfFile& file, const std::string& property) 
   return section;
 }
 
-/// Where rho is 0 there is no rock.
+/// Makes values NaN where rho is 0: there is no rock.
 void take_void_out(ModelSection& section, const Field<2>& rho) {
   for (std::size_t cell = 0; cell < rho.size(); ++cell)
     if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();

@@ -48,7 +48,7 @@ std::string range_in_words(const ModelSection& section, const Limits& range);
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
                                 const std::optional<Slice>& slice = std::nullopt);
 
-/// The same of a model in 3-D on several planes, read once.
+/// Reads the property of a model in 3-D on several planes, at once.
 std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
                                               std::span<const Slice> planes);
 
@@ -65,7 +65,7 @@ std::vector<Slice> planes_of(const Grid<3>& grid, const WantedPlanes& wanted);
 /// The pixels of a panel, and the cells of a grid that each shows.
 struct GridPixels {
   std::vector<Cells> columns, rows;
-  /// Of a fitted grid, instead of `rows`: what a column of pixels shows of a column of cells. Rows are where
+  /// Replaces `rows` in a fitted grid: what a column of pixels shows of a column of cells. Rows are where
   /// they are in the middle of the pixels.
   std::function<std::vector<Cells>(std::size_t pixel, std::int64_t column)> bent_rows = {};
   std::size_t height = 0;  // pixels
@@ -83,7 +83,7 @@ GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid);
 template <class Value>
 Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take);
 
-/// The same as `look` asks for: interpolated between cells, or not.
+/// Returns the values of a field as `look` asks for them: interpolated between cells, or not.
 Raster shown_values(const Field<2>& field, const Panel& panel, const Page& page, Take take, const Look& look);
 
 /// The x and true depth axes of a grid, or of what `look` shows of it, in one unit; and the height of a panel

@@ -139,7 +139,7 @@ struct Shown {
 
 constexpr double floor_db = -60;
 
-/// Of a power of ten.
+/// Returns the decibels of a power of ten.
 double decibels(const Spectra& spectra) { return spectra.quantity == "amplitude" ? 20 : 10; }
 
 /// In dB of the greatest value.
@@ -200,7 +200,7 @@ Band band_of(const Spectra& spectra) {
   return band;
 }
 
-/// Of traces all; of wavenumbers those of the band, as far to both sides.
+/// Returns the axis of places: of traces all; of wavenumbers those of the band, as far to both sides.
 Axis place_axis(const Spectra& spectra, const std::vector<double>& edges, const Band& band) {
   if (spectra.place == Spectra::Place::phase_velocity)
     return {"phase velocity", "m/s", edges.front(), edges.back()};

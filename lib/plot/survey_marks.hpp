@@ -13,7 +13,7 @@ class Reader;
 
 namespace slipwave::plot {
 
-/// Where a survey shot and listened, each place once.
+/// The places where a survey shot and recorded, each once.
 struct SurveyMarks {
   std::vector<Point<2>> sources, receivers;  // across and down
   /// The sources are points that plane waves pass at time zero.
@@ -21,7 +21,7 @@ struct SurveyMarks {
   std::optional<double> plane_angle_deg = {};  // from straight down towards +x, where the file tells it
 };
 
-/// Of all traces of a file, as a section across this axis shows them.
+/// Returns the marks of all traces of a file, as a section across this axis shows them.
 SurveyMarks read_survey(segy::Reader& reader, int axis = 1);
 
 /// x, y, z of the source of the first trace.

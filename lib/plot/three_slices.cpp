@@ -15,7 +15,7 @@ struct Size {
   double width = 0, height = 0;
 };
 
-/// Of the room in which the data of a panel have this size.
+/// Returns the size of the room in which the data of a panel have this size, in pt.
 Size room_size(const PanelSpec& spec, const Size& data, const Page& page) {
   Size room{data.width + 150, data.height + 120};
   for (int pass = 0; pass < 3; ++pass) {  // words depend on the axes' lengths
