@@ -12,10 +12,10 @@
 
 namespace slipwave {
 
-/// Of what a checkpoint file holds; another one is refused.
+/// The format of what a checkpoint file holds; another one is refused.
 inline constexpr std::uint64_t checkpoint_format = 1;
 
-/// Where the checkpoint before the newest is kept: "C.1".
+/// Returns where the checkpoint before the newest is kept: "C.1".
 std::string older_checkpoint(const std::string& path);
 
 /// Writes a checkpoint that appears whole or not at all: a private temporary beside it, on the disk before it

@@ -20,7 +20,7 @@ struct Trait {
 /// All of them: two runs whose identities are the same give the same outputs.
 using Identity = std::vector<Trait>;
 
-/// Of everything a scene holds but the tiling.
+/// Returns the identity of everything a scene holds but the tiling.
 template <int D>
 Identity identity_of(const Scene<D>& scene);
 

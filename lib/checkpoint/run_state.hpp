@@ -53,12 +53,12 @@ class RunState {
   /// What it recorded is in files of its own, and need not be kept any more.
   void release(std::size_t shot);
 
-  /// Where the snapshots of a shot are logged, and how many of them an earlier run has taken.
+  /// These return where the snapshots of a shot are logged, and how many of them an earlier run has taken.
   std::string snapshot_log(std::size_t shot) const;
   SnapshotMark snapshots_of(std::size_t shot) const;
   using Mark = std::function<SnapshotMark()>;
-  /// Of a shot that is about to be shot: lives as long as it runs. Null without a checkpoint. `mark` says how
-  /// far the log of its snapshots is, where it has one.
+  /// Returns the pauses of a shot that is about to be shot; they live as long as it runs. Null without a
+  /// checkpoint. `mark` says how far the log of its snapshots is, where it has one.
   std::unique_ptr<Pauses> pauses_of(std::size_t shot, Mark mark = {});
 
   /// Between shots: writes a checkpoint where it is time, and ends the run where a signal asks for that.

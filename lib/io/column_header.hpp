@@ -18,7 +18,7 @@ struct ColumnHeader {
   UnitConversion conversion(const std::string& into) const;
 };
 
-/// Of "VP.M/S", "vp (m/s)", "vp [m/s]" or "vp".
+/// Returns the header that "VP.M/S", "vp (m/s)", "vp [m/s]" or "vp" gives.
 ColumnHeader column_header(std::string_view cell);
 
 /// Headers that stand between blanks, where a unit in brackets belongs to the name before it.

@@ -18,7 +18,7 @@ std::string shown_input(const std::string& path);
 std::vector<char> read_all(const std::string& path, std::vector<char> already_read = {},
                            std::size_t most = 0);
 
-/// As read_all, for what people write: 64 MiB at most.
+/// Reads what people write as read_all() does: 64 MiB at most.
 std::string read_text(const std::string& path, std::vector<char> already_read = {});
 
 /// Is `path` a regular file? Throws Error naming it when it is missing or a directory. "-" is none.

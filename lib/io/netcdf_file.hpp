@@ -86,8 +86,9 @@ class NetcdfFile {
   std::vector<T> get(const std::string& variable, const std::vector<std::size_t>& start,
                      const std::vector<std::size_t>& count) const;
   std::vector<std::string> get_text(const std::string& variable) const;
-  /// As get<float>, in physical units: scale_factor and add_offset applied; NaN for _FillValue, missing_value
-  /// (or the library's default fill) and what lies outside valid_range, valid_min or valid_max.
+  /// These read values as get<float> does, in physical units: scale_factor and add_offset applied; NaN for
+  /// _FillValue, missing_value (or the library's default fill) and what lies outside valid_range, valid_min
+  /// or valid_max.
   std::vector<float> get_physical(const std::string& variable) const;
   std::vector<float> get_physical(const std::string& variable, const std::vector<std::size_t>& start,
                                   const std::vector<std::size_t>& count) const;

@@ -28,7 +28,7 @@ mode_t mode_of_new_files() {
   return 0666 & ~mask;
 }
 
-/// Where a symbolic link leads, so that the rename replaces the file and not the link.
+/// Returns where a symbolic link leads, so that the rename replaces the file and not the link.
 std::string resolved(const std::string& path) {
   std::error_code failed;
   if (!fs::is_symlink(path, failed)) return path;

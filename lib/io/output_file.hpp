@@ -29,7 +29,7 @@ class OutputFile {
   const std::string& path_for_libraries();
   /// Flush, fsync-free close, rename. Throws when anything failed.
   void commit();
-  /// The same under another name, of the same directory; what is written in place or streamed stays there.
+  /// Commits under another name, of the same directory; what is written in place or streamed stays there.
   void commit_as(const std::string& path);
   /// "gather.sgy" or "standard output": as messages name it.
   const std::string& shown_name() const;

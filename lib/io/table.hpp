@@ -27,7 +27,7 @@ class Table {
   const std::vector<std::string>& columns() const { return columns_; }
   /// Values of the first row: the number of columns where there is no header.
   std::size_t width() const { return width_; }
-  /// Where a column is; none where the table has no such column.
+  /// Returns the place of a column; none where the table has no such column.
   std::optional<std::size_t> find(std::string_view column) const;
   /// A column that may be there, and the unit that its numbers shall be in; "" of what has none.
   struct Known {

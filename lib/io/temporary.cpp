@@ -57,7 +57,7 @@ void release_slot(Slot* slot) {
   slot->taken = false;
 }
 
-/// Those that end a process by default and are sent from outside, by users, terminals, timers and batch
+/// The signals that end a process by default and are sent from outside, by users, terminals, timers and batch
 /// systems. Those that a fault of the program raises leave a core as it was.
 constexpr int ending_signals[] = {SIGINT,  SIGTERM,   SIGHUP,  SIGPIPE, SIGQUIT, SIGALRM,
                                   SIGXCPU, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};

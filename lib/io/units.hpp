@@ -23,7 +23,8 @@ struct UnitConversion {
 /// by which most people mean the gram.
 std::optional<UnitConversion> unit_conversion(const std::string& unit, const std::string& into);
 
-/// The same of what people write in tables and well logs, too: in capitals, "US/F", "K/M3", "GM/CC".
+/// Returns the conversion of what people write in tables and well logs, too: in capitals, "US/F", "K/M3",
+/// "GM/CC".
 std::optional<UnitConversion> spelt_unit_conversion(const std::string& unit, const std::string& into);
 
 /// What a message says of a unit without conversion: "found the unit 'degrees', expected one of length, as m

@@ -27,7 +27,7 @@ double slope(const At& at, std::int64_t before, std::int64_t after, double h) {
   return 0;
 }
 
-/// The same of value(cell) along an axis at a cell of the grid.
+/// Derivative per metre of value(cell) along an axis at a cell of the grid.
 template <int D, class Value>
 double slope_at(const Grid<D>& grid, const Index<D>& cell, int axis, const Value& value) {
   const auto along = std::size_t(axis);

@@ -63,7 +63,7 @@ class SnapshotWriter {
   void write(double time_s, std::span<const Field<D>> fields);
   /// Finishes the file and puts it in place. Once, at the end.
   void commit();
-  /// The same under another name (OutputFile::commit_as).
+  /// Finishes the file under another name (OutputFile::commit_as).
   void commit_as(const std::string& path);
 
   const std::vector<std::string>& fields() const { return fields_; }
