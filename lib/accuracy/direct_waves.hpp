@@ -34,10 +34,10 @@ class DirectWaves {
     std::optional<double> p, s;
   };
   Error error(const Discretisation& cells) const;
-  /// Of both together, each by its energy; where none arrives, that of the slowest waves at the sources on
-  /// the way as long as the traces last.
+  /// Returns the error of both together, each by its energy; where none arrives, that of the slowest waves at
+  /// the sources on the way as long as the traces last.
   double together(const Discretisation& cells) const;
-  /// Of the slowest waves of the scene on the way as long as the traces last.
+  /// Returns the error of the slowest waves of the scene on the way as long as the traces last.
   double latest(const Discretisation& cells) const;
 
  private:

@@ -21,12 +21,12 @@ struct AccuracySetting {
   bool operator==(const AccuracySetting&) const = default;
 };
 
-/// That of a scene as it is.
+/// Returns the setting of a scene as it is.
 template <int D>
 AccuracySetting setting_of(const Scene<D>& scene);
 
-/// The same scene computed so: the same geology in other cells (ModelInCells), survey and recording
-/// untouched.
+/// Returns a scene computed with this setting: the same geology in other cells (ModelInCells), survey and
+/// recording untouched.
 template <int D>
 Scene<D> with_setting(const Scene<D>& scene, const AccuracySetting& setting);
 
@@ -43,7 +43,7 @@ std::string name_of(const AccuracySetting& setting, const Scene<D>& scene);
 struct GatherError {
   double whole = 0;
   double late = 0;  // last quarter of the samples
-  /// Of each component by itself, in the order in which they are recorded.
+  /// The norms of each component by itself, in the order in which they are recorded.
   std::vector<std::pair<Component, double>> components;
   /// The trace that is most wrong, against all components of its unit that its receiver records: their
   /// relative error, and where it is.
@@ -51,9 +51,9 @@ struct GatherError {
   std::size_t worst_shot = 0;  // of the list, from 0
   std::int64_t worst_channel = 0;
 };
-/// Of what is `wrong` with what was found; shot by shot the same traces in the same order.
+/// Returns the norms of what is `wrong` with what was found; shot by shot the same traces in the same order.
 GatherError size_of_error(const std::vector<Gather>& wrong, const std::vector<Gather>& found);
-/// Of what was found, against exact traces.
+/// Returns the norms of the error of what was found, against exact traces.
 GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gather>& exact);
 
 /// a + factor b, trace by trace.

@@ -47,7 +47,7 @@ struct Grid {
     return origin_m[axis] + (double(first[axis] + i) + 0.5) * spacing_m;
   }
   double end(int axis) const { return origin_m[axis] + double(first[axis] + shape[axis]) * spacing_m; }
-  /// Of a place along an axis, in cells from the centre of cell 0.
+  /// Returns the position of a place along an axis, in cells from the centre of cell 0.
   double position(int axis, double place_m) const {
     return (place_m - origin_m[axis]) / spacing_m - 0.5 - double(first[axis]);
   }

@@ -46,8 +46,8 @@ class RowDepths {
   /// Slope of a row along a horizontal axis at the centre of a cell: dz/dx or dz/dy, for cells `spacing_m`
   /// wide.
   double slope(const Index& at, int axis, double spacing_m) const;
-  /// By how much the row coordinate changes faster than the place along the normal of the row: |grad zeta|, 1
-  /// in a regular grid. A wave of speed c crosses c stretch dt/h cells in dt.
+  /// Returns the factor by which the row coordinate changes faster than the place along the normal of the
+  /// row: |grad zeta|, 1 in a regular grid. A wave of speed c crosses c stretch dt/h cells in dt.
   double stretch(const Index& at, double spacing_m) const;
   /// Depth at row coordinates counted in cells from the first corner, not rounded to corners: cubics through
   /// the four nearest along each axis across, straight within a row. Outside as at the edge; above the first

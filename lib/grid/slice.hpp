@@ -22,8 +22,8 @@ Slice parse_slice(std::string_view text);
 struct CellLayer {
   int axis = 1;
   std::int64_t number = 0;
-  /// Of a fitted grid across z: a plane at this depth, m, which bent rows run through. A column shows the
-  /// cell that the plane is in; `number` says nothing.
+  /// The depth of a plane across z of a fitted grid, m, which curvilinear rows run through. A column shows
+  /// the cell that the plane is in; `number` says nothing.
   std::optional<double> depth_m = {};
 };
 /// The cells that a plane runs through. Throws a usage Error when it misses the grid.
@@ -31,7 +31,7 @@ CellLayer layer_on(const Grid<3>& grid, const Slice& slice);
 /// The layer to show: the one a plane runs through, or of a grid one cell thick the only one. Throws a
 /// usage Error for a volume without a plane.
 CellLayer layer_to_show(const Grid<3>& grid, const std::optional<Slice>& slice);
-/// Where a layer lies: its depth, or the centres of its cells.
+/// Returns where a layer lies: its depth, or the centres of its cells.
 Slice plane_of(const Grid<3>& grid, const CellLayer& layer);
 
 /// The axes that a section across an axis has left: the one that runs across it and the one that runs down.
@@ -44,8 +44,8 @@ Grid<3> layer_of(const Grid<3>& grid, const CellLayer& layer);
 /// And what a field has there; NaN where a plane runs above or below the rows of a fitted grid.
 Field<3> layer_of(const Field<3>& field, const CellLayer& layer);
 
-/// The same as a section: of the axes that are left, the first across and the second down. Where a plane runs
-/// above or below the rows of a fitted grid, NaN, or 0 of whole numbers.
+/// These return this layer as a section: of the axes that are left, the first across and the second down.
+/// Where a plane runs above or below the rows of a fitted grid, values are NaN, or 0 of whole numbers.
 Grid<2> section_grid(const Grid<3>& grid, const CellLayer& layer);
 template <class Value>
 Field<2, Value> section_of(const Field<3, Value>& field, const CellLayer& layer);

@@ -14,7 +14,7 @@ struct SymmetricTensor {
   static constexpr int components = D * (D + 1) / 2;
   std::array<Real, components> values{};
 
-  /// Where component (i, j) stands in `values`.
+  /// Returns the place of component (i, j) in `values`.
   static constexpr int place(int i, int j) {
     if (i == j) return i;
     return D + std::min(i, j) * (2 * D - 3 - std::min(i, j)) / 2 + std::max(i, j) - 1;

@@ -7,7 +7,7 @@
 namespace slipwave {
 namespace {
 
-/// Of values at the centres of a column, between faces, at a depth within them.
+/// Interpolates values at the centres of a column, between faces, linearly to a depth within them.
 double linear_at(const std::vector<double>& faces_m, const std::vector<float>& values, std::int64_t row,
                  double depth_m) {
   const auto centre = [&](std::size_t k) { return (faces_m[k] + faces_m[k + 1]) / 2; };
