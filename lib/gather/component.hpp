@@ -74,7 +74,7 @@ const char* name_of(Component component);
 Component component_named(const std::string& name, int dimension = 0);
 /// "m/s", "Pa", "1/s" .. or "" (other).
 const char* unit_of(Component component);
-/// As CF conventions write it: "m s-1" for "m/s", "m s-2" for "m/s2".
+/// Returns a unit as CF conventions write it: "m s-1" for "m/s", "m s-2" for "m/s2".
 std::string cf_unit(const std::string& unit);
 
 /// Which rows are listed: all, or those that snapshots can have (ComponentRow::is_field()).

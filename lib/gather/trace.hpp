@@ -19,7 +19,7 @@ struct SampleAxis {
   bool operator==(const SampleAxis&) const = default;
 };
 
-/// Where and what, in SI; z points down from the surface.
+/// This header says where a trace is and what it holds, in SI; z points down from the surface.
 struct TraceHeader {
   std::int64_t shot = 1;     // field record, 1-based
   std::int64_t channel = 1;  // receiver number within its component, 1-based

@@ -28,7 +28,7 @@ class TraceFilter {
   /// Throws usage Error when a step does not suit the sampling.
   TraceFilter(const SampleAxis& axis, FilterSteps steps);
 
-  /// Of what comes out.
+  /// Returns the sample axis of what comes out.
   const SampleAxis& axis() const noexcept { return to_; }
   /// `start_s` is the time of the first sample. Throws Error naming the sample (from 1) that is not finite,
   /// or when there are more or fewer than the axis has.

@@ -32,7 +32,8 @@ struct FkFilterSettings {
   bool reject = false;                                     // keep the others
 
   bool any() const { return fan || wavenumbers_per_m; }
-  /// Of the waves of one wavenumber (1/m, above 0 towards growing positions) and frequency, 0 to 1.
+  /// Returns the weight of the waves of one wavenumber (1/m, above 0 towards growing positions) and
+  /// frequency, 0 to 1.
   double weight(double wavenumber_per_m, double frequency_hz) const;
 };
 

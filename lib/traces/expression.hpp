@@ -55,7 +55,7 @@ class Expression {
     double number = 0;
   };
 
-  /// Of a step that takes two numbers, the one below and the one on top of the stack.
+  /// Returns the result of a step that takes two numbers, the one below and the one on top of the stack.
   static double result_of(Step::Code code, double a, double b);
 
   std::vector<Step> steps_;

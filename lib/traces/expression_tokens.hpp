@@ -18,7 +18,7 @@ class ExpressionTokens {
   bool at_end() const { return token_.empty(); }
   bool at_number() const;
   bool at_name() const;
-  /// Where the token begins, from 0.
+  /// Returns the character at which the token begins, from 0.
   std::size_t at() const { return at_; }
 
   void advance();

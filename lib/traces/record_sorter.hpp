@@ -42,7 +42,7 @@ class RecordSorter {
     const std::uint8_t* bytes;
     std::size_t size;
   };
-  /// Where sorted records lie in the temporary file.
+  /// A part of the temporary file in which sorted records lie, in bytes.
   struct Part {
     std::uint64_t begin, end;
   };

@@ -50,7 +50,7 @@ segy::TraceWords words_of(const TraceHeader& header, const segy::SurveyLayout& l
   return words;
 }
 
-/// Of all columns, x fastest.
+/// Returns the headers of all columns, x fastest.
 template <int D>
 std::vector<TraceHeader> headers_of(const Grid<D>& grid) {
   std::vector<TraceHeader> headers(std::size_t(grid.size() / grid.shape[D - 1]));

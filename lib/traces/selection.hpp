@@ -8,7 +8,7 @@
 
 namespace slipwave {
 
-/// Of the traces that meet a condition: how many, and how many of one shot follow each other at most.
+/// These count the traces that meet a condition, and how many of one shot follow each other at most.
 struct SelectionCounts {
   std::int64_t traces = 0, per_shot = 0;
 };

@@ -32,7 +32,7 @@ int sorting_code(const SortKey& first);
 /// Sorts traces by keys, samples untouched.
 class TraceSorter {
  public:
-  /// As RecordSorter.
+  /// Takes the keys; memory and directory are those of RecordSorter.
   TraceSorter(std::vector<SortKey> keys, std::uint64_t memory_bytes, const std::string& directory);
 
   void add(const TraceView& view);
