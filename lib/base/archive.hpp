@@ -33,7 +33,7 @@ class Archive {
     value(one);
     flag = one != 0;
   }
-  /// As many as there are; throws an Error when another number was written.
+  /// Serializes as many values as there are; throws an Error when another number was written.
   template <class T>
   void fixed(T* first, std::size_t number) {
     static_assert(std::is_trivially_copyable_v<T>);

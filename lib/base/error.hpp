@@ -17,7 +17,7 @@ class Error : public std::runtime_error {
   explicit Error(const std::string& what, ErrorKind kind = ErrorKind::data)
       : std::runtime_error(what), kind_(kind) {}
   ErrorKind kind() const noexcept { return kind_; }
-  /// The same error, `place` put in front of its sentence: "model.nc: vs at x=1200 ...".
+  /// Returns this error with `place` put in front of its sentence: "model.nc: vs at x=1200 ...".
   Error within(const std::string& place) const { return Error(place + ": " + what(), kind_); }
 
  private:

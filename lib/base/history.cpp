@@ -11,7 +11,7 @@
 namespace slipwave {
 namespace {
 
-/// Where the word of a command line that begins at `at` ends.
+/// Returns where the word of a command line that begins at `at` ends.
 std::size_t end_of_word(std::string_view command, std::size_t at) {
   bool quoted = false;
   for (; at < command.size(); ++at) {

@@ -15,7 +15,7 @@ struct Messages {
   /// What it took and gave, at its end: for who watches, or keeps a log. `sentence` is asked for only where
   /// there is such a one.
   std::function<void(const std::function<std::string()>& sentence)> close;
-  /// Of a loop with this title ("shot 3") over things of this name ("steps").
+  /// Returns the progress of a loop with this title ("shot 3") over things of this name ("steps").
   std::function<Progress(const std::string& title, const std::string& things)> progress;
 };
 

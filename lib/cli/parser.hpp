@@ -59,7 +59,7 @@ class Parser {
   void declare_common();
   void parse(int argc, const char* const* argv);
   const CommonSettings& common() const { return common_; }
-  /// As Context::command_line. After parse().
+  /// Returns the command line, as Context::command_line holds it. After parse().
   const std::string& command_line() const { return command_line_; }
   /// The text of --help or --help-all.
   std::string help() const;

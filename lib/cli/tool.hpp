@@ -56,12 +56,12 @@ class Options {
   /// `name` and any of `others` are a usage error, `why` in a few words; of one in the file of --config and
   /// one on the command line the latter counts.
   void excludes(const std::string& name, const std::vector<std::string>& others, const std::string& why = "");
-  /// Of all options declared so far.
+  /// Returns the names of all options declared so far.
   std::vector<std::string> names() const;
   /// Headings of --help: each stands above the option named with it; those declared after that one are under
   /// it, too.
   void headings(const std::vector<std::pair<std::string, std::string>>& first_and_title);
-  /// Those that --help shows; the others, --help-all. Without it --help shows all of them.
+  /// Names the options that --help shows; the others, --help-all. Without it --help shows all of them.
   void common(const std::vector<std::string>& names);
   /// Positional arguments, in order; the last may be a vector that takes all the rest.
   void positional(std::string& to, const std::string& placeholder);

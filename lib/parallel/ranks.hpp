@@ -31,7 +31,7 @@ class Ranks {
  public:
   virtual ~Ranks() = default;
   virtual int count() const = 0;
-  /// Of this one: 0 to count() - 1.
+  /// Returns the number of this one: 0 to count() - 1.
   virtual int number() const = 0;
   /// Messages between two ranks with the same tag (0 to 31) arrive in the order in which they were sent; what
   /// is received has the length of what was sent.
