@@ -106,8 +106,8 @@ std::vector<double> SlipGroup<D, Real>::put_response(std::size_t place, const El
   return moduli;
 }
 
-/// Where planes open, have springs or lie askew to the axes of anisotropic rock, the part of a cut cell that
-/// slips is loaded as the cell is.
+/// The part of a cut cell that slips is loaded as the cell is where planes open, have springs or lie askew to
+/// the axes of anisotropic rock.
 template <int D, class Real>
 double SlipGroup<D, Real>::put_edge(const Model<D>& model, std::size_t place, std::size_t cell, double lambda,
                                     double mu) {
