@@ -15,7 +15,7 @@ fresh() {
   echo '#include <vector>' > "$house/lib/base/error.hpp"
   echo '#include <fftw3.h>' > "$house/lib/base/fft.cpp"
   echo '#include "base/error.hpp"' > "$house/lib/gather/trace.cpp"
-  echo '#include "scene/scene.hpp"' > "$house/lib/output/snapshot.cpp"
+  printf '#include "scene/scene.hpp"\n/// Returns the energy\n/// Of the whole grid, J.\n' > "$house/lib/output/snapshot.cpp"
   echo '#include "solver/kernels/reconstruction.hpp"' > "$house/lib/accuracy/dispersion.cpp"
   echo 'int main() {}' > "$house/tools/sw_x.cpp"
   mkdir -p "$house/docs/theory"
@@ -90,6 +90,7 @@ noticed words docs/theory/waves.md "see $(printf '%s%s 12' is sue)" 'docs/theory
 noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:3'
 noticed words docs/theory/waves.md "a $(printf '%s%s' matched ' layer') absorbs" "docs/theory/waves.md:5: 'a $(printf '%s%s' matched ' layer')': write 'PML'"
 noticed words lib/base/error.hpp "/// It $(printf '%s%s' err 's by') 2 %%." "write 'has an error of'"
+noticed words lib/base/error.hpp '/// Of the whole grid, J.' "lib/base/error.hpp:2: 'Of the whole grid, J.': write a sentence"
 noticed top_level notes.txt x 'notes.txt: the top level holds'
 noticed top_level 'docs/two words.md' x 'a plain file name'
 noticed equations docs/theory/waves.md 's = rho c v  (E2)' '(E2) is proved by no test'

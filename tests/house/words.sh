@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# words.sh ROOT: no file names somebody's machine, a package host, an issue number or work left undone, and each thing bears
-# its one word of docs/notation.md.
+# words.sh ROOT: no file names somebody's machine, a package host, an issue number or work left undone, each thing bears
+# its one word of docs/notation.md, and doc comments of the library begin as sentences.
 set -eu
 cd "$1"
 # Each pattern is written so that this file does not match itself.
@@ -62,4 +62,15 @@ while IFS=$tab read -r left right; do
   sed "s/:\([^:]*\)\$/: '\1': write '$right'/" "$found/hits"
   status=1
 done < "$found/words"
+
+# Where a doc comment begins, not where it continues.
+find lib -name '*.?pp' | sort | xargs awk '
+  FNR == 1 { inside = 0 }
+  !/^ *\/\/\// { inside = 0; next }
+  !inside && match($0, /\/\/\/ (Of|The same|Those|By how much)( |$)/) {
+    print FILENAME ":" FNR ": \047" substr($0, RSTART + 4) "\047: write a sentence with a subject (\047Returns the ...\047)"
+    found = 1
+  }
+  { inside = 1 }
+  END { exit found }' || status=1
 exit "$status"
