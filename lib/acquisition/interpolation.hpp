@@ -88,7 +88,7 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
 /// position and usable cells as for axis_weights(), narrowest_spread of them or more.
 std::vector<CellWeight> spread_weights(double position, const AxisCells& usable);
 
-/// Returns such weights at a point of the plane or of space: products of the axes' weights.
+/// Returns the weights that spread_weights() gives at a point in 2-D or 3-D: products of the axes' weights.
 template <int D>
 std::vector<PointWeight<D>> spread_point_weights(const Grid<D>& grid, const Point<D>& point_m,
                                                  const std::array<AxisCells, std::size_t(D)>& usable);
@@ -107,7 +107,7 @@ struct TimeWeights {
 TimeWeights time_weights(double position, std::int64_t low, std::int64_t high);
 
 /// These return the weights for the derivative at `position`, per sample, and for the integral over from ..
-/// to, in samples, where no sample lies between them: of such polynomials.
+/// to, in samples, where no sample lies between them: both of the polynomials of time_weights().
 TimeWeights time_slopes(double position, std::int64_t low, std::int64_t high);
 TimeWeights time_integrals(double from, double to, std::int64_t low, std::int64_t high);
 

@@ -34,7 +34,8 @@ double time_to(double bound, double from, double to, double rate) {
   if (!(left > 0) || left >= 1) return std::numeric_limits<double>::infinity();
   return -std::log(left) / rate;
 }
-/// Returns this time for a bound that is not behind it, even where it stands there already but for rounding.
+/// Returns the time of time_to() for a bound that is not behind the traction, even where the traction stands
+/// there already but for rounding.
 double time_on_to(double bound, double from, double to, double rate) {
   const double left = (bound - to) / (from - to);
   return left > 0 ? -std::log(std::min(left, 1.)) / rate : std::numeric_limits<double>::infinity();

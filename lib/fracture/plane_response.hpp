@@ -45,14 +45,14 @@ struct PlaneResponse<3, Real> {
       for (std::size_t i = 0; i < 3; ++i) of[i] += along[k][i] * components[k];
     return of;
   }
-  /// Returns what slip along a traction takes off it that takes the size 1 off where both moduli are the
-  /// larger one.
+  /// Returns what slip along a traction takes off it; where both moduli are the larger one, that has the size
+  /// 1.
   Vector loss_along(const Vector& tau, Real size) const {
     auto of = components(tau);
     for (std::size_t k = 0; k < 2; ++k) of[k] *= share[k] / size;
     return traction(of);
   }
-  /// Returns the part of that along the traction.
+  /// Returns the component of loss_along() along the traction.
   Real share_along(const Vector& tau, Real size) const {
     const auto of = components(tau);
     return (share[0] * of[0] * of[0] + share[1] * of[1] * of[1]) / (size * size);

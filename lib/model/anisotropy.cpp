@@ -13,7 +13,7 @@ namespace {
 
 /// Directions from the vertical to the horizontal among which the largest and smallest are searched.
 constexpr int directions = 180;
-/// Directions along both angles of an octant among which they are searched in 3-D.
+/// Directions along both angles of an octant among which the largest and smallest are searched in 3-D.
 constexpr int directions_in_space = 24;
 
 /// Calls what(speeds) for directions of a quadrant, in 3-D of an octant: upright rock is alike in all of

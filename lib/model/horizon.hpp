@@ -52,7 +52,7 @@ class Horizon {
   double to_m(int axis = 0) const;
   /// Returns how a message names it: "400 m", "sine,400,20,500", "@top.txt".
   const std::string& name() const { return shape_.name; }
-  /// Returns this name with its dip: "400 m dip 15".
+  /// Returns name() with the dip: "400 m dip 15".
   std::string name_with_dip() const;
 
  private:

@@ -40,7 +40,7 @@ class ModelInCells {
   /// Throws a usage Error where the size is not above zero or the model would not fit the memory, an Error as
   /// regridded() where a fitted grid cannot be made anew.
   Model<D> of(double spacing_m) const;
-  /// Returns such a model with rows that follow all horizons they can; as_built() only.
+  /// Returns the model in cells of that size with rows that follow all horizons they can; as_built() only.
   Model<D> fitted(double spacing_m) const;
 
  private:

@@ -53,8 +53,8 @@ void place_single_fractures(Model<D>& model);
 /// Throws a usage Error where a trace has less than two vertices, a piece of no length or a vertex outside
 /// the model.
 void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace);
-/// Checks a polygon in this way (planar_fracture.hpp); in a fitted grid it is held against the box of the
-/// model.
+/// Checks a polygon (planar_fracture.hpp) as check_trace() does a trace; in a fitted grid it is held against
+/// the box of the model.
 void check_trace(const Grid<3>& grid, const FractureTrace<3>& polygon);
 
 /// Adds a set of single fractures and marks the solid cells they lie in; an earlier cluster gives way there,

@@ -47,8 +47,8 @@ Page page_of(const PlotOptions& options);
 /// can be drawn, a usage Error for several files of a kind that is drawn one at a time.
 Picture picture_of(const PlotOptions& options, const Page& page);
 
-/// Makes the one of the files named that ends as movies do the output. Throws a usage Error where there is
-/// one already.
+/// Takes the one of the files named that ends as movies do for the output. Throws a usage Error where there
+/// is an output already.
 void take_movie_name(PlotOptions& options);
 
 /// Draws all times of a snapshot file on one scale: into one movie for -o NAME.mp4 (or .gif), each into a

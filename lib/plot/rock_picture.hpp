@@ -22,8 +22,8 @@ struct RockAt {
   bool attenuates() const;
 };
 
-/// Returns the rock of the cell that holds a point of the plane or of space. Throws a usage Error where there
-/// is none, or void.
+/// Returns the rock of the cell that holds a point in 2-D or 3-D. Throws a usage Error where there is none,
+/// or void.
 template <int D>
 RockAt rock_at(const Model<D>& model, const Point<D>& point_m);
 

@@ -12,8 +12,9 @@ namespace slipwave {
 /// How many times wider cells of a band may be than those of the band beside it (theory.md (B1)).
 inline constexpr int widest_step_of_bands = 4;
 
-/// How many times wider they may be where the face lies in one rock: with more, the energy of random fields
-/// at order 5 and 7 rose for some steps by up to 0.2 % (theory/bands.md).
+/// How many times wider cells of a band may be than those of the band beside it where the face lies in one
+/// rock: with more, the energy of random fields at order 5 and 7 rose for some steps by up to 0.2 %
+/// (theory/bands.md).
 inline constexpr int widest_step_in_rock = 2;
 
 /// Rows of a neighbour beyond a face between bands that a band holds: as many as decide how it sweeps its own
@@ -30,7 +31,7 @@ std::string shown(const std::vector<Band>& bands, int digits = 0);
 /// The largest cells of bands, m; 0 without bands.
 double largest_cell_m(const std::vector<Band>& bands);
 
-/// Returns these bands in cells some `ratio` times as large.
+/// Returns the bands in cells some `ratio` times as large.
 std::vector<Band> resized(std::vector<Band> bands, double ratio);
 
 /// The bands that a scene calls for, at the same cells per wavelength everywhere: wherever all waves below

@@ -8,8 +8,8 @@ namespace {
 constexpr double a1 = 0.2316, a2 = -0.067498409365708231;
 constexpr double b1 = -0.1312, b2 = 0.45306344962548994;
 
-/// Returns these as steps of first order, x y z and its mirror image z y x by turns (McLachlan 1995): the
-/// first half of them, the other is its mirror image.
+/// Returns the parts of (E18) as steps of first order, x y z and its mirror image z y x by turns (McLachlan
+/// 1995): the first half of them, the other is its mirror image.
 std::vector<double> half_of_stages(int time_order) {
   if (time_order == 2) return {0.5};
   constexpr double a3 = 0.5 - (a1 + a2);

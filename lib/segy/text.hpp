@@ -32,9 +32,9 @@ std::vector<std::uint8_t> encode_text(std::string_view text, TextEncoding encodi
 /// everything, the last of `lines` stays and a line "..." stands for what is left out.
 std::string lay_out_text(std::span<const std::string> lines, int revision);
 
-/// Lays out two groups of lines in this way, the second of which always stays as a whole: where 38 lines do
-/// not hold both, the longest of the first are cut, the later of them left out, and a few lines stay free for
-/// the commands of tools that come after.
+/// Lays out two groups of lines as lay_out_text() does one, the second of which always stays as a whole:
+/// where 38 lines do not hold both, the longest of the first are cut, the later of them left out, and a few
+/// lines stay free for the commands of tools that come after.
 std::string lay_out_text(std::span<const std::string> lines, std::span<const std::string> always,
                          int revision);
 

@@ -70,8 +70,8 @@ class Writer {
   void write(const TraceHeader& header, std::span<const double> samples);
   /// A trace of another file, its headers carried along; counters, ns and dt are made to fit.
   void write(const Trace& trace, bool from_su);
-  /// Writes such a trace whose samples are in the format and byte order of the file, or in those that
-  /// FileInfo says of them.
+  /// Writes a trace of another file whose samples are in the format and byte order of the file, or in those
+  /// that FileInfo says of them.
   void write(const RawTrace& trace, bool from_su);
 
   std::int64_t written() const noexcept { return written_; }

@@ -225,8 +225,8 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
   }
 }
 
-/// Marks such cells of runs along one other axis, `across`, at one side of the edge. Along z it is
-/// collective.
+/// Marks the solid cells between two reflectors along one other axis, `across`, at one side of an axis. Along
+/// z it is collective.
 template <int D, class Real>
 void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks) {
   auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];

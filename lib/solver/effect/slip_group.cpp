@@ -48,7 +48,7 @@ std::array<double, 3> stress_of_slip(const Point<2>& n, const Elasticity<2>& c) 
   return stress_of_strain<2>(c, {-n[0] * n[1], n[1] * n[0], n[0] * n[0] - n[1] * n[1]});
 }
 
-/// Returns the traction along t of that stress.
+/// Returns the traction along t that a stress has on planes with the normal n.
 double traction_along(const Point<2>& n, const std::array<double, 3>& stress) {
   return n[0] * n[1] * (stress[1] - stress[0]) + (n[0] * n[0] - n[1] * n[1]) * stress[2];
 }

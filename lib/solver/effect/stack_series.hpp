@@ -22,7 +22,7 @@ struct StackWave {
 };
 
 /// The times of a series, in s: when the incident wave comes to where its amplitude is counted, and the first
-/// and the last time that are required.
+/// and last time that are required.
 struct SeriesWindow {
   double arrival_s = 0, first_s = 0, last_s = 0;
 };

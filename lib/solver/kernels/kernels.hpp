@@ -226,11 +226,11 @@ struct PmlKernels {
   /// phi += u - before.
   void (*collect)(std::int64_t n, const Real* before, const Real* u, Real* phi);
   /// Does phi += u - before, then u -= loss phi and the damping in plates, then phi *= left. Factors are by
-  /// cell; `plate` is the damping in plates of all cells, in terms of the factor (0: no plate).
+  /// cell; `plate` is the damping in plates of all cells, in terms of lost_in_plates (0: no plate).
   void (*damp_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* u,
                      Real* phi);
-  /// Does so with the same factors for all cells and the damping in plates by cell, in terms of the factor
-  /// (0: no plate).
+  /// Does what damp_along does with the same factors for all cells and the damping in plates by cell, in
+  /// terms of lost_in_plates (0: no plate).
   void (*damp_across)(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
                       Real* u, Real* phi);
   /// u -= loss phi; phi *= left: factors by cell, then the same for all.

@@ -72,8 +72,8 @@ template <class Law, bool Extended, class Real>
   return Extended && gap > 0 ? Real(0) : shut;
 }
 
-/// Strength of such planes at the end of a step in which slip takes `loss` off the traction at `strength`,
-/// theta c being `weighted`.
+/// Strength of planes that may be open at the end of a step in which slip takes `loss` off the traction at
+/// `strength`, theta c being `weighted`.
 template <class Law, bool Extended, class Real>
 [[gnu::always_inline]] inline Real strength_at_end(const FrictionConstants<Real>& law, Real s_n, Real slip_m,
                                                    Real slip_per_pa, Real gap, Real strength, Real weighted,

@@ -78,7 +78,7 @@ class TimeStep {
   }
   /// Whether an effect acts between that sweep, one of sweeps(), and the next.
   bool acts_after_sweep(std::size_t sweep) const { return !between_[sweep].empty(); }
-  /// Applies those effects.
+  /// Applies the effects that act after that sweep.
   void apply_after_sweep(std::size_t sweep, const StepTime& time, const RowFields<Real>& fields,
                          const IndexRange& cells) const {
     for (auto* effect : between_[sweep]) effect->apply_between(time, fields, cells);

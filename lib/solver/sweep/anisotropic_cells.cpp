@@ -137,8 +137,8 @@ void AnisotropicCells<D, Real>::reconstruct_run(int axis, const IndexRange& run,
   }
 }
 
-/// Reconstructs such a run of a curvilinear row, whose faces have different sizes: each wave is one pair of
-/// numbers, as across the rows (WavePair).
+/// All waves of a run of cells of a curvilinear row whose stencils are whole. Its faces have different sizes:
+/// each wave is one pair of numbers, as across the rows (WavePair).
 template <int D, class Real>
 void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(int axis, const IndexRange& run,
                                                             const Kernels<Real>& kernels, std::int64_t stride,

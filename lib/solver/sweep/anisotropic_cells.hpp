@@ -173,8 +173,8 @@ class AnisotropicCells {
   std::array<std::vector<Ending>, std::size_t(D)> endings_;
 };
 
-/// These are the cells in sweeps across curvilinear rows, and in 3-D beside these rows those of upright rock,
-/// too: there each has waves of its own at the faces before and behind it (RowWaves).
+/// These are AnisotropicCells in sweeps across curvilinear rows, and in 3-D beside these rows the cells of
+/// upright rock, too: there each has waves of its own at the faces before and behind it (RowWaves).
 template <int D, class Real>
 class AnisotropicCellsAcross {
  public:

@@ -59,8 +59,8 @@ class Domain {
   std::vector<std::int64_t> soft;     // cells that carry next to no stress (soft_cells())
   int order = 1;                      // of the reconstruction, at most
   /// These two are of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that
-  /// stencils reach from it is not level, and the height of level ones in cells. They are empty where none is
-  /// bent, or all are one cell.
+  /// stencils reach from it is not level, and the height of level ones in cells. They are empty where no row
+  /// is curvilinear, or all heights are one cell.
   std::vector<char> bent_rows;
   std::vector<double> row_heights;
   /// How rows continue beyond each side of the model.

@@ -44,8 +44,8 @@ class AlongSurface {
   std::vector<SurfaceTerm<D>> terms_;
 };
 
-/// Returns the terms of such a slope at a curvilinear row at an end of z: all velocities of the neighbours
-/// take part.
+/// Returns the terms of the slope of a velocity at a free surface of a curvilinear row at an end of z: all
+/// velocities of the neighbours take part.
 template <int D>
 std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& at, int side, int row) {
   const auto [normal, height] = end_of_rows(domain, at, side);
@@ -69,8 +69,8 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return velocities.terms();
 }
 
-/// Returns the terms of such a slope at an anisotropic cell of a curvilinear row: the tensor of N times what
-/// it bends is the traction of motion along the rows.
+/// Returns the terms of the slope of a velocity at a free surface of an anisotropic cell of a curvilinear
+/// row: the acoustic tensor of N takes the slopes to the traction of motion along the rows.
 template <int D>
 std::vector<SurfaceTerm<D>> anisotropic_bent_slope(const Domain<D>& domain, const Index<D>& at, int side,
                                                    int row) {

@@ -58,7 +58,8 @@ constexpr int reach_up_to(int cells, int beyond, int reach) {
 }
 /// Ratio of impedances from which a face within the stencil of a cell is a contrast.
 constexpr double contrast_ratio = 1.2;
-/// Ratio of impedances as matrices from which such a face is a contrast, where axes are tilted.
+/// Ratio of impedances as matrices from which a face within the stencil of a cell is a contrast, where axes
+/// are tilted.
 constexpr double tilted_contrast_ratio = 1.05;
 
 constexpr std::int8_t not_carried = -1;

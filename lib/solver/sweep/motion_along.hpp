@@ -73,8 +73,8 @@ RowVector<D, Real> traction_of_motion_along(const RowVector<D, Real>& normal, Re
   }
 }
 
-/// The rate of that traction on a level face of an anisotropic medium: c13 and c55 stand in place of lambda
-/// and mu, along y c23 and c44 (theory.md (V4), (O4)).
+/// The rate of this traction (traction_of_motion_along()) on a level face of an anisotropic medium: c13 and
+/// c55 stand in place of lambda and mu, along y c23 and c44 (theory.md (V4), (O4)).
 template <int D, class Real>
 RowVector<D, Real> traction_on_level_face(Real c13, Real c55, Real c23, Real c44,
                                           const std::array<RowVector<D, Real>, std::size_t(D - 1)>& along) {

@@ -44,8 +44,8 @@ class SplitFaces {
   /// velocities as they are before the sweep up to free_surface_reach cells beside them.
   void update(std::int64_t row, const IndexRange& columns);
   void update_all();
-  /// Computes them for a sweep along x of a line; its velocities and those of lines beside it are as retain()
-  /// found them, since sweeps change line after line.
+  /// Computes the images for a sweep along x of a line; its velocities and those of lines beside it are as
+  /// retain() found them, since sweeps change line after line.
   void update_line(std::int64_t line, const IndexRange& columns);
   void retain(std::int64_t line, const IndexRange& columns);
 

@@ -34,8 +34,8 @@ struct SweptCells {
   const Index<D>& row;
   IndexRange cells;
   std::span<const int> field_rows;  // that the sweep changes
-  /// These four point to the first cell: those field rows before the sweep, one after another; field row 0
-  /// now.
+  /// These four are of the first cell: `before` points to those field rows before the sweep, one after
+  /// another, `now` to field row 0 now.
   const Real* before;
   std::int64_t before_pitch;
   Real* now;

@@ -86,7 +86,7 @@ class Sweeps {
   /// state and the memory of filters stay as they are. The copy must have room for the reconstruction beyond
   /// those.
   void copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy, Workspace<Real>& work);
-  /// Computes such a copy in the workspace and returns it.
+  /// Computes in the workspace what copy_ahead() computes in a copy, and returns it.
   RowFields<Real> ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
                                 Workspace<Real>& work);
   /// A piece of a sweep along x in a copy of some columns, which must be far from the ends of the row and
@@ -102,8 +102,8 @@ class Sweeps {
   /// Call for each step from 0 up to the number of rows + rows_behind() - 1 with the same columns and ring.
   void across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns, Real scale,
               Ring<Real>& ring, Workspace<Real>& work);
-  /// Does such a piece where all cells are zero and stay so: clears outgoing waves and face states in the
-  /// ring.
+  /// Does a piece of a sweep across where all cells are zero and stay so: clears outgoing waves and face
+  /// states in the ring.
   void skip(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const;
   /// Rows by which the update of a sweep across is behind the newest row.
   std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }

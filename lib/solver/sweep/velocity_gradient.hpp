@@ -49,9 +49,11 @@ class VelocityGradient {
   }
   /// Adds the derivative per cell along an axis of the velocity `row` at a place, as products of weights.
   void add_product(const Cells& usable, const Place& at, int row, int along, double factor, Sum& sum) const;
-  /// Adds that derivative along a free surface, or where there is none.
+  /// Adds the derivative per cell along an axis of the velocity `row` at a place, along a free surface or
+  /// where there is none.
   void add_slope_along(const Place& at, int row, int along, double factor, Sum& sum) const;
-  /// Adds it at the point, across a free surface too.
+  /// Adds the derivative per cell along an axis of the velocity `row` at the point, across a free surface
+  /// too.
   void add_slope(int row, int along, double factor, Sum& sum) const;
   /// The derivative per cell away from a free surface at a place on it, which those along it enforce.
   enum class Values { one_sided, with_images };
