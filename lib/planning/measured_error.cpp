@@ -138,6 +138,29 @@ class Compared {
   std::list<std::vector<Gather>> silenced_;
 };
 
+/// Returns whether waves meet nothing but one medium without loss, and edges that absorb.
+template <int D>
+bool nothing_reflects(const Scene<D>& scene) {
+  for (int axis = 0; axis < D; ++axis)
+    for (const auto edge : scene.edges[axis])
+      if (edge != EdgeLaw::absorbing) return false;
+  const auto& medium = scene.model.medium;
+  return scene.model.fracture_sets.empty() && !scene.attenuation &&
+         std::ranges::all_of(medium.properties(), [&](Property property) {
+           const auto& values = medium[property];
+           return std::ranges::all_of(values, [&](float value) { return value == values[0]; });
+         });
+}
+
+/// Returns the order that the errors of a setting keep: that in time where nothing reflects, two with
+/// surfaces and interfaces that rows follow. What horizons that cut cells and faces between bands add falls
+/// more slowly than the rest, and hides behind it in larger cells.
+template <int D>
+double kept_order(const SceneRuns<D>& runs, const AccuracySetting& setting) {
+  if (runs.model().tops_cut_cells() || !runs.scene().numerics.bands.empty()) return 1;
+  return nothing_reflects(runs.scene()) ? setting.time_order : 2;
+}
+
 }  // namespace
 
 template <int D>
@@ -205,9 +228,7 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
     throw Error("the scene holds cells of one other size only, " + shown(coarsest.spacing_m, 4) +
                 " m: its error is measured by running it");
   // Where none of the sizes is its own, of second order is the best guess there is.
-  // What faces between bands add falls more slowly than the rest, and hides behind it in larger cells.
-  const bool first_order = runs.model().tops_cut_cells() || !runs.scene().numerics.bands.empty();
-  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2, first_order ? 1 : 2);
+  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2, kept_order(runs, setting));
   measured.order = of_cells.order;
   measured.by_cells = of_cells.error;
   measured.wrong = std::move(of_cells.wrong);
