@@ -20,10 +20,11 @@ std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechan
   const double h = wavelength_m / cells;
   const double duration_s = std::ceil(1000 * (offsets.back() / (0.86 * vs) + 3 / peak_hz)) / 1000;
   const double reach = rock.vp * duration_s;
-  // What P waves bring back from the edges, at vp/vs = 5 before, would cover the error of the surface.
-  const double wide = std::max(1., rock.vp / (2.5 * vs));
-  const auto left = std::int64_t(std::min(300 + reach / 4, 800. * wide) / h);
-  const auto right = std::int64_t((offsets.back() + std::min(reach / 4, 600. * wide)) / h);
+  // What P waves bring back from the edges, at vp/vs = 5 before, would cover the error of the surface. A
+  // force on it sends little else than surface waves: of its errors that is less than a thousandth.
+  const double wide = (depth_m > 0 ? 1 : 0.25) * std::max(1., rock.vp / (2.5 * vs));
+  const auto left = std::int64_t(std::min(180 + 0.15 * reach, 480. * wide) / h);
+  const auto right = std::int64_t((offsets.back() + std::min(0.15 * reach, 360. * wide)) / h);
   auto medium = uniform_medium(left + right, std::int64_t(std::min(reach / 2, 1200. * wide) / h), h, rock);
   for (auto* field : {&medium.vp, &medium.vs, &medium.rho}) {
     Grid<2> grid = field->grid();
