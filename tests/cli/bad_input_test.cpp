@@ -39,8 +39,8 @@ bool exists_as_file(const fs::directory_entry& entry) {
   return entry.is_regular_file(failed);
 }
 
-/// A large file, full of nothing, stands there for its size alone.
-bool is_large(const fs::directory_entry& entry) { return entry.file_size() > (1 << 20); }
+/// One that need not be read again for every row.
+bool is_large(const fs::directory_entry& entry) { return entry.file_size() > (1 << 12); }
 
 /// What any write to it changes.
 std::string size_and_time(const fs::directory_entry& entry) {
@@ -74,13 +74,15 @@ bool matches(const std::string& text, const std::string& pattern) {
   return false;
 }
 
-class BadInput : public Shell, public ::testing::WithParamInterface<std::string> {
- protected:
-  void SetUp() override {
+/// A directory of all that the tables need, which no row may change.
+class Beside : public Shell {
+ public:
+  Beside() {
     write_bad_models(path(""));
     done("sh " SLIPWAVE_BAD_INPUT "/setup.sh");
     write("out", "older");
   }
+  void TestBody() override {}
 
   /// Everything in the directory, by name; of large files, size and time, since all is read again for every
   /// row.
@@ -96,21 +98,26 @@ class BadInput : public Shell, public ::testing::WithParamInterface<std::string>
     }
     return all;
   }
+  using Shell::files;
+  using Shell::run;
 };
+class BadInput : public ::testing::TestWithParam<std::string> {};
 
 }  // namespace
 
 TEST_P(BadInput, IsRefusedInOneLineAndNothingIsWritten) {
-  const auto before = contents();
+  static const Beside beside;
+  const auto before = beside.contents();
   const std::string shot = "shot='--source 100,50 --wavelet ricker:15 --receivers 0:200:50,20 --time 0.1'; ";
   for (const auto& row : rows_of(GetParam())) {
-    const Ran ran = run(shot + row.complete());
+    const Ran ran = beside.run(shot + row.complete());
     EXPECT_EQ(ran.code, row.code) << row.place << ": " << row.line;
     EXPECT_TRUE(matches(ran.err, row.tool() + ": " + row.sentence + "\n"))
         << row.place << ": " << row.line << "\n  said     " << ran.err << "  expected " << row.sentence;
     // sw-info says what it could find out before it says what is wrong.
     EXPECT_TRUE(ran.out.empty() || row.tool() == "sw-info") << row.place << ": " << row.line;
-    EXPECT_TRUE(contents() == before) << row.place << ": " << row.line << "\n  left " << files();
+    EXPECT_TRUE(beside.contents() == before)
+        << row.place << ": " << row.line << "\n  left " << beside.files();
   }
 }
 
