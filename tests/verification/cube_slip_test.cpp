@@ -140,10 +140,10 @@ struct View {
   std::array<int, 3> sign;
 };
 
-/// By how much the traces of a scene seen from elsewhere differ.
-double difference_of(const Scene<3>& scene, const View& view) {
+/// By how much the traces of a scene seen from elsewhere differ from its own.
+double difference_of(const Scene<3>& scene, const View& view, const std::vector<double>& own) {
   const auto seen = turned_back(shoot(turned(scene, view.axis_of, view.sign), 1), view.axis_of, view.sign);
-  return relative_error(seen, samples_of(shoot(scene, 1)));
+  return relative_error(seen, own);
 }
 
 // Proves (S12).
@@ -151,9 +151,10 @@ TEST(BlockMedium, LooksTheSameInMirrors) {
   const auto scene = block_scene();
   auto intact = scene;
   intact.with_slip = false;
-  EXPECT_GT(relative_error(samples_of(shoot(scene, 1)), samples_of(shoot(intact, 1))), 0.05);
+  const auto own = samples_of(shoot(scene, 1));
+  EXPECT_GT(relative_error(own, samples_of(shoot(intact, 1))), 0.05);
   for (const std::array<int, 3>& sign : {std::array{-1, 1, 1}, std::array{1, -1, 1}, std::array{1, 1, -1}})
-    EXPECT_LT(difference_of(scene, {{0, 1, 2}, sign}), 1e-9) << sign[0] << sign[1] << sign[2];
+    EXPECT_LT(difference_of(scene, {{0, 1, 2}, sign}, own), 1e-9) << sign[0] << sign[1] << sign[2];
 }
 
 // Proves (S12).
@@ -165,14 +166,16 @@ TEST(BlockMedium, AtRightAnglesLooksTheSameFromAllSidesInShortSteps) {
   systems[0].normal = {2. / 7, 3. / 7, 6. / 7};
   systems[1].normal = {3. / 7, -6. / 7, 2. / 7};
   systems[2].normal = {6. / 7, 2. / 7, -3. / 7};
-  for (const View& view : {View{{2, 1, 0}, {1, -1, 1}}, View{{1, 2, 0}, {1, 1, 1}}}) {
-    double difference[3];
-    for (int n = 0; n < 3; ++n) {
-      scene.numerics.cfl = 0.8 / double(1 << n);
-      difference[n] = difference_of(scene, view);
-    }
-    EXPECT_GT(observed_order(difference[0], difference[1]), 0.9);
-    EXPECT_GT(observed_order(difference[1], difference[2]), 0.9);
+  const View views[] = {{{2, 1, 0}, {1, -1, 1}}, {{1, 2, 0}, {1, 1, 1}}};
+  double difference[2][3];
+  for (int n = 0; n < 3; ++n) {
+    scene.numerics.cfl = 0.8 / double(1 << n);
+    const auto own = samples_of(shoot(scene, 1));
+    for (int of = 0; of < 2; ++of) difference[of][n] = difference_of(scene, views[of], own);
+  }
+  for (const auto& by_step : difference) {
+    EXPECT_GT(observed_order(by_step[0], by_step[1]), 0.9);
+    EXPECT_GT(observed_order(by_step[1], by_step[2]), 0.9);
   }
 }
 
