@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "lab.hpp"
+#include "cube.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -27,16 +27,17 @@ Scene<2> scene_with_cracks(double width_m, double depth_m, double h, const std::
   return scene;
 }
 
-/// Traces of slip alone: with it less without it.
-std::vector<double> response(Scene<2> scene, SlipCorrection correction) {
-  scene.numerics.correction = correction;
-  const Gather slipping = shoot(scene, 1);
+/// Traces of slip alone, by each correction: with it less without it.
+std::vector<std::vector<double>> responses(Scene<2> scene, const std::vector<SlipCorrection>& corrections) {
+  std::vector<std::vector<double>> all;
+  for (const auto correction : corrections) {
+    scene.numerics.correction = correction;
+    all.push_back(samples_of(shoot(scene, 1)));
+  }
   scene.with_slip = false;
-  const Gather intact = shoot(scene, 1);
-  std::vector<double> all;
-  for (std::size_t trace = 0; trace < slipping.traces.size(); ++trace)
-    for (std::size_t n = 0; n < slipping.traces[trace].samples.size(); ++n)
-      all.push_back(slipping.traces[trace].samples[n] - intact.traces[trace].samples[n]);
+  const auto intact = samples_of(shoot(scene, 1));
+  for (auto& samples : all)
+    for (std::size_t n = 0; n < intact.size(); ++n) samples[n] -= intact[n];
   return all;
 }
 
@@ -50,10 +51,12 @@ double peak(const std::vector<double>& values) {
 // difference of 0.8 % between the corrections; the scheme they used gives 0.3 to 1 % of the incident wave and
 // a response of 6 to 10 %.
 TEST(SlippingCluster, AnswersAPlaneWaveAsInTheFirstCaseOfThePaper) {
-  auto scene = scene_with_cracks(2500, 3000, 5, {500, 2000, 2000, 2100});
+  // Nothing is back from the lower edge before the end.
+  auto scene = scene_with_cracks(2500, 2300, 5, {500, 2000, 2000, 2100});
   for (double x = 0; x <= 2500; x += 125) scene.survey.receivers_m.push_back({x, 25});
   check(scene);
-  const auto second = response(scene, SlipCorrection::second), first = response(scene, SlipCorrection::first);
+  const auto both = responses(scene, {SlipCorrection::second, SlipCorrection::first});
+  const auto &second = both[0], &first = both[1];
   std::vector<double> difference;
   for (std::size_t n = 0; n < first.size(); ++n) difference.push_back(first[n] - second[n]);
   EXPECT_GT(peak(second), 0.06 * 0.01);
@@ -64,7 +67,8 @@ TEST(SlippingCluster, AnswersAPlaneWaveAsInTheFirstCaseOfThePaper) {
 
 /// A block of slipping rock in a smooth wave (12 Hz, 75 cells per wavelength): what the correction makes of
 /// the time step.
-std::vector<double> block_response(SlipCorrection correction, double cfl, double h) {
+std::vector<std::vector<double>> block_responses(const std::vector<SlipCorrection>& corrections, double cfl,
+                                                 double h) {
   auto scene = scene_with_cracks(300, 500, h, {100, 200, 200, 250});
   scene.model.fracture_sets[0].systems[0].strength_pa = 5e3;
   scene.survey.sources[0].wavelet = parse_wavelet("gauss:12");
@@ -74,7 +78,7 @@ std::vector<double> block_response(SlipCorrection correction, double cfl, double
   scene.numerics.cfl = cfl;
   scene.numerics.double_precision = true;
   scene.numerics.order = 7;
-  return response(scene, correction);
+  return responses(scene, corrections);
 }
 
 // Proves (S6).
@@ -86,10 +90,11 @@ TEST(SlippingBlock, ConvergesInTimeTenTimesNearerWithTheSecondOrder) {
   double first[2], second[2];
   for (const int n : {0, 1}) {
     const double h = n ? 5 : 10;
-    const auto exact = block_response(SlipCorrection::second, 0.2, h);
+    const auto exact = block_responses({SlipCorrection::second}, 0.2, h)[0];
     ASSERT_GT(peak(exact), 1e-5);
-    first[n] = relative_error(block_response(SlipCorrection::first, 0.8, h), exact);
-    second[n] = relative_error(block_response(SlipCorrection::second, 0.8, h), exact);
+    const auto both = block_responses({SlipCorrection::first, SlipCorrection::second}, 0.8, h);
+    first[n] = relative_error(both[0], exact);
+    second[n] = relative_error(both[1], exact);
     EXPECT_LT(first[n], h == 5 ? 0.05 : 0.1);
     EXPECT_LT(second[n], first[n] / 7) << h;
   }
