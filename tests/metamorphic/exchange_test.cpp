@@ -7,15 +7,20 @@
 namespace slipwave::solver {
 namespace {
 
-/// Relative difference of the trace of a force along x or z at `from`, recorded along it at `to`, and of the
-/// exchanged shot.
-double asymmetry(Scene<2> scene, const Point<2>& from, const Point<2>& to, bool along_x) {
+/// Relative differences of the traces of a force along x or z at each of `from`, recorded along it at `to`,
+/// and of the exchanged shot, which is one for all.
+std::vector<double> asymmetries(Scene<2> scene, const std::vector<Point<2>>& from, const Point<2>& to,
+                                bool along_x) {
   scene.recording.components = {along_x ? Component::vx : Component::vz};
   const char* const mechanism = along_x ? "force:1,0" : "force:0,1";
-  shoot_from(scene, from, mechanism, {to});
-  const auto there = traces_of(scene);
-  shoot_from(scene, to, mechanism, {from});
-  return difference(traces_of(scene), there);
+  shoot_from(scene, to, mechanism, from);
+  const auto back = shoot(scene, 1);
+  std::vector<double> all;
+  for (std::size_t n = 0; n < from.size(); ++n) {
+    shoot_from(scene, from[n], mechanism, {to});
+    all.push_back(difference(back.traces[n].samples, traces_of(scene)));
+  }
+  return all;
 }
 
 /// Cells of the upper rock above row `face`.
@@ -31,7 +36,7 @@ TEST(Exchange, AcrossAContrastOfDensityHoldsAsInOneRock) {
     dense.rho *= draw.between(1.6, 4);
     const double near_face_m = 50 + draw.between(-2, 2) * double(draw.whole(0, 1));
     for (const bool along_x : {false, true}) {
-      EXPECT_LT(asymmetry(two(rock, dense, 50), {40.2, near_face_m}, {70.3, 31.6}, along_x), 0.002)
+      EXPECT_LT(asymmetries(two(rock, dense, 50), {{40.2, near_face_m}}, {70.3, 31.6}, along_x)[0], 0.002)
           << "seed " << seed << " at " << near_face_m;
     }
   }
@@ -41,12 +46,16 @@ TEST(Exchange, AtAnInterfaceOfRocksHoldsToTheOrderOfTheScheme) {
   for (const unsigned seed : seeds()) {
     Draw draw(seed);
     const Rock upper = draw.rock(22), lower = draw.rock(draw.between(32, 40));
-    for (const double away_m : {0., 0.5, -0.5, draw.between(1, 3)})
-      for (const bool along_x : {false, true})
-        // First order within half a cell of the interface.
-        EXPECT_LT(asymmetry(two(upper, lower, 50), {40.2, 50 + away_m}, {70.3, 31.6}, along_x),
-                  std::abs(away_m) < 1 ? 0.025 : 0.01)
-            << "seed " << seed << ", " << away_m << " m away" << (along_x ? ", x" : ", z");
+    const double away_m[] = {0, 0.5, -0.5, draw.between(1, 3)};
+    std::vector<Point<2>> from;
+    for (const double away : away_m) from.push_back({40.2, 50 + away});
+    for (const bool along_x : {false, true}) {
+      const auto found = asymmetries(two(upper, lower, 50), from, {70.3, 31.6}, along_x);
+      // First order within half a cell of the interface.
+      for (std::size_t n = 0; n < found.size(); ++n)
+        EXPECT_LT(found[n], std::abs(away_m[n]) < 1 ? 0.025 : 0.01)
+            << "seed " << seed << ", " << away_m[n] << " m away" << (along_x ? ", x" : ", z");
+    }
   }
 }
 
@@ -55,10 +64,15 @@ TEST(Exchange, BelowVoidHoldsToTheOrderOfTheScheme) {
     Draw draw(seed);
     const Rock rock = draw.rock(20);
     const auto scene = two(nothing, rock, 30);
-    for (const double below_m : {0., 0.5, draw.between(1, 3)})
-      for (const bool along_x : {false, true})
-        EXPECT_LT(asymmetry(scene, {40.2, 30 + below_m}, {70.3, 55.6}, along_x), below_m < 1 ? 0.04 : 0.015)
-            << "seed " << seed << ", " << below_m << " m below" << (along_x ? ", x" : ", z");
+    const double below_m[] = {0, 0.5, draw.between(1, 3)};
+    std::vector<Point<2>> from;
+    for (const double below : below_m) from.push_back({40.2, 30 + below});
+    for (const bool along_x : {false, true}) {
+      const auto found = asymmetries(scene, from, {70.3, 55.6}, along_x);
+      for (std::size_t n = 0; n < found.size(); ++n)
+        EXPECT_LT(found[n], below_m[n] < 1 ? 0.04 : 0.015)
+            << "seed " << seed << ", " << below_m[n] << " m below" << (along_x ? ", x" : ", z");
+    }
   }
 }
 
