@@ -33,11 +33,13 @@ Material in_level_plane(const Material& rock) {
   return {std::sqrt(c(1, 1) / rock.rho), std::sqrt(c(6, 6) / rock.rho), rock.rho};
 }
 
-/// Both scenes with their times and receivers, which the short form has closer to the source.
+/// Both scenes with their times and receivers, which the short form has closer to the source and to narrower
+/// layers that absorb.
 Extruded recorded(Extruded both, double short_s, double long_s, const std::vector<Point<2>>& near,
                   const std::vector<Point<2>>& far) {
   const auto& points = long_form() ? far : near;
   both.flat.recording.duration_s = both.deep.recording.duration_s = long_form() ? long_s : short_s;
+  if (!long_form()) both.flat.numerics.zone_cells = both.deep.numerics.zone_cells = 6;
   both.flat.survey.receivers_m = points;
   both.deep.survey.receivers_m.assign(points.size(), {2.5, 2.5, 2.5});
   for (std::size_t n = 0; n < points.size(); ++n)
