@@ -92,7 +92,7 @@ TEST(SameBed, OfOneOrTwoCellsGivesTheTracesOfSmallCells) {
     shoot_from(scene, {30.3, 6.2}, "explosion", {{50, 8}, {65.4, 10}, {75, 35.3}});
     small.recording = scene.recording;
     small.survey = scene.survey;
-    small.numerics.zone_cells = 80;
+    scene.numerics.zone_cells = 14, small.numerics.zone_cells = 56;
     EXPECT_LT(difference(traces_of(scene), traces_of(small)), 0.02) << "seed " << seed;
   }
 }
