@@ -245,7 +245,7 @@ Scene<3> cube_of(const Medium<2>& column, std::int64_t side, const std::string& 
   cube.survey.sources = {{{25, 30, depth_m}, parse_mechanism<3>(kind), parse_wavelet("ricker:20"), 1}};
   cube.survey.receivers_m = {{42.5, 12.5, 42.5}, {12.5, 37.5, 87.5}};
   for (auto& law : cube.edges.law) law = {EdgeLaw::absorbing, EdgeLaw::absorbing};
-  cube.numerics.zone_cells = 10;
+  cube.numerics.zone_cells = 6;
   cube.recording = {{Component::vx, Component::vy, Component::vz}, 0.16, 0.002};
   return cube;
 }
@@ -285,7 +285,7 @@ TEST(ObliquePlaneWave, TravelsInAnyVerticalPlaneIn3DAsIn2D) {
     auto scene = scene_of(flat, kind, {90, from_m}, cube.recording.duration_s);
     scene.recording.interval_s = cube.recording.interval_s;
     scene.edges[1][0] = top;
-    scene.numerics.zone_cells = 10;
+    scene.numerics.zone_cells = 6;
     for (const auto& at : cube.survey.receivers_m)
       scene.survey.receivers_m.push_back({90 + (at[0] - 25) * std::cos(azimuth_deg * pi / 180) +
                                               (at[1] - 30) * std::sin(azimuth_deg * pi / 180),
