@@ -10,7 +10,7 @@ namespace slipwave {
 namespace {
 
 constexpr int cells() { return 16; }
-int steps() { return long_form() ? 4000 : 80; }
+int steps() { return long_form() ? 1500 : 80; }
 
 /// Compliance times the shear modulus of ordinary rock, normal and tangential, and the time in which dashpots
 /// let the springs give way, in time steps.
