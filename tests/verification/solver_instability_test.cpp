@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "cube.hpp"
 #include "lab.hpp"
 #include "memory_archive.hpp"
 #include "parallel/threads.hpp"
@@ -208,6 +209,40 @@ TEST(Instability, InTheLastStepsIsSeenToo) {
   ASSERT_LT(steps, 350);
   Spoiler spoiler(scene, 302, {200, 100}, no_number);
   EXPECT_THROW(shoot<2>(scene, 1, {}, {}, &spoiler), Unstable);
+}
+
+/// A wave may move cells along one axis alone: the check sees any one component of any cell, and names its
+/// axis.
+template <int D>
+void expect_each_component_seen(const Medium<D>& medium) {
+  EdgeLaws<D> edges;
+  for (auto& of_axis : edges.law) of_axis.fill(EdgeLaw::rigid);
+  const auto domain = make_domain(medium, edges, 0);
+  auto state = make_filled_state<D, float>(domain, medium, 1e-3);
+  constexpr double limit = 5;
+  const StabilityCheck<D, float> check(state, domain, 1, limit);
+  Index<D> last = medium.grid().shape;
+  for (auto& n : last) --n;
+  for (const auto& cell : {Index<D>{}, last})
+    for (int axis = 0; axis < D; ++axis)
+      for (const double value : {no_number, HUGE_VAL, -1.001 * limit, 0.999 * limit}) {
+        float& velocity = state.field_row(cell, FieldRows<D>::velocity(axis))[cell[0]];
+        velocity = float(value);
+        try {
+          check.check({0, 1e-3});
+          EXPECT_LT(std::abs(value), limit) << axis;
+        } catch (const DivergedFields<D>& seen) {
+          EXPECT_FALSE(std::abs(value) < limit) << axis;
+          EXPECT_EQ(seen.first().at, cell) << value;
+          EXPECT_EQ(seen.first().axis, axis) << value;
+        }
+        velocity = 0;
+      }
+}
+
+TEST(Instability, OfOneComponentAloneIsSeen) {
+  expect_each_component_seen<2>(uniform_medium(20, 10, h, rock));
+  expect_each_component_seen<3>(uniform_cube({20, 6, 5}, h, rock));
 }
 
 /// The largest velocity of any cell at any time, of a shot in snapshots of every step.
