@@ -42,5 +42,38 @@ TEST(Snapshots, DoNotDependOnWhatIsLeftOutOrHowPassesAreCut) {
   }
 }
 
+TEST(Snapshots, HoldWhatReceiversAtMiddlesOfCellsRecordThen) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(60, 50, 5, {4500, 2250, 2500});
+  scene.survey.sources = {{{152, 103}, parse_mechanism<2>("force:1,2"), parse_wavelet("ricker:40"), 1e6}};
+  const std::vector<Index<2>> cells = {{40, 20}, {28, 35}, {10, 12}};
+  for (const auto& [x, z] : cells)
+    scene.survey.receivers_m.push_back({5 * double(x) + 2.5, 5 * double(z) + 2.5});
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  const std::vector<Component> components = {Component::vx, Component::vz, Component::sxx, Component::szz,
+                                             Component::sxz};
+  const double dt_s = time_step_s(scene);
+  scene.recording = {components, 120 * dt_s, dt_s};
+  scene.snapshot_every_s = 30 * dt_s;
+  std::vector<std::pair<std::size_t, std::vector<float>>> seen;
+  const auto gather = shoot<2>(scene, 1, {}, [&](double time_s, const FieldReader<2>& field) {
+    std::vector<float> values;
+    for (const auto component : components)
+      for (const auto& cell : cells) values.push_back(field(component)(cell));
+    seen.emplace_back(std::size_t(std::lround(time_s / dt_s)), values);
+  });
+  ASSERT_GE(seen.size(), 4u);
+  for (const auto& [instant, values] : seen) {
+    ASSERT_EQ(values.size(), gather.traces.size());
+    for (std::size_t n = 0; n < values.size() && instant < 120; ++n) {
+      double largest = 0;
+      for (const double sample : gather.traces[n].samples) largest = std::max(largest, std::abs(sample));
+      ASSERT_GT(largest, 0) << n;
+      // Of numbers in single precision.
+      EXPECT_NEAR(values[n], gather.traces[n].samples[instant], 1e-6 * largest) << n << ' ' << instant;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipwave::solver
