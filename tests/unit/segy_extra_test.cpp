@@ -279,6 +279,16 @@ TEST(AdditionalHeader, FollowsTheSamplingOfTheOutput) {
   EXPECT_EQ(found->get_real("xdt"), 4000);
 }
 
+TEST(SamplingWords, AreInMicrosecondsWhereverTheyStand) {
+  const Scratch scratch;
+  const Bytes bytes = plain_file(scratch, 2);
+  const BinaryWords words(std::span<const std::uint8_t, 400>(&bytes[3200], 400), Endian::big);
+  EXPECT_EQ(words.get("dt"), 2000);
+  EXPECT_EQ(words.get("dto"), 2000);
+  EXPECT_EQ(words.get_real("xdt"), 2000);
+  EXPECT_EQ(words.get_real("xdto"), 2000);
+}
+
 TEST(Trailer, IsNoTrace) {
   const Scratch scratch;
   Bytes bytes = plain_file(scratch, 2);
