@@ -108,7 +108,7 @@ class Lab {
   void expect_no_growth(int steps, double rounding, double floor = 0) {
     slipwave::expect_no_growth(*this, steps, rounding, 1, floor);
   }
-  void expect_fall_in_the_long_run(int steps);
+  void expect_fall_in_the_long_run(int steps, double gained = 0);
 
  private:
   enum class Stress { of_waves, all };
@@ -145,8 +145,8 @@ constexpr double rounding() {
 }
 
 template <class Real>
-void Lab<Real>::expect_fall_in_the_long_run(int steps) {
-  slipwave::expect_fall_in_the_long_run(*this, steps, rounding<Real>());
+void Lab<Real>::expect_fall_in_the_long_run(int steps, double gained) {
+  slipwave::expect_fall_in_the_long_run(*this, steps, rounding<Real>(), gained);
 }
 
 extern template class Lab<float>;
