@@ -423,8 +423,7 @@ std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
       if (!set) continue;
       return "the source of shot " + std::to_string(shot) + " lies in cells of the fracture '" + set->name +
              "': what it answers may be half of what it should be. Move the source away by a cell, or use "
-             "smaller "
-             "cells";
+             "smaller cells";
     }
   return std::nullopt;
 }

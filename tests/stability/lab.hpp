@@ -108,7 +108,9 @@ class Lab {
   void expect_no_growth(int steps, double rounding, double floor = 0) {
     slipwave::expect_no_growth(*this, steps, rounding, 1, floor);
   }
-  void expect_fall_in_the_long_run(int steps, double gained = 0);
+  void expect_fall_in_the_long_run(int steps, double rounding = 0) {
+    slipwave::expect_fall_in_the_long_run(*this, steps, rounding);
+  }
 
  private:
   enum class Stress { of_waves, all };
@@ -142,11 +144,6 @@ class Lab {
 template <class Real>
 constexpr double rounding() {
   return sizeof(Real) == 4 ? 1e-5 : 1e-11;
-}
-
-template <class Real>
-void Lab<Real>::expect_fall_in_the_long_run(int steps, double gained) {
-  slipwave::expect_fall_in_the_long_run(*this, steps, rounding<Real>(), gained);
 }
 
 extern template class Lab<float>;
