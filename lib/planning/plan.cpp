@@ -26,9 +26,11 @@
 namespace slipwave {
 namespace {
 
-/// In so many steps no bands that were tried gained energy at any order; at order 5 and below they did not in
-/// twice as many either (docs/theory/bands.md).
+/// In so many steps no bands and no closed boxes that were tried gained energy at any order; at order 5 and
+/// below bands did not in twice as many either (docs/theory/bands.md, docs/theory/interfaces.md).
 constexpr double steps_without_gain = 10000;
+/// What waves along an interface may gain of their amplitude in a step (docs/theory/interfaces.md).
+constexpr double gain_in_a_step = 2.5e-5;
 
 /// Fewer cells per wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;
@@ -428,6 +430,36 @@ std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
   return std::nullopt;
 }
 
+/// Whether two solids meet anywhere at an interface where stencils end.
+template <int D>
+bool joins_unlike_solids(const Medium<D>& medium) {
+  const auto& grid = medium.grid();
+  for (std::int64_t n = 0; n < grid.size(); ++n)
+    for (int axis = 0; axis < D; ++axis) {
+      auto at = grid.index(n);
+      if (++at[std::size_t(axis)] == grid.shape[std::size_t(axis)]) continue;
+      const auto one = std::size_t(n), other = std::size_t(grid.flat(at));
+      if (!medium.is_solid(one) || !medium.is_solid(other)) continue;
+      for (const Wave wave : {wave_p, wave_s})
+        if (strong_interface_between(wave_impedance(medium, one, axis, wave),
+                                     wave_impedance(medium, other, axis, wave)))
+          return true;
+    }
+  return false;
+}
+
+/// What a long run may gain where no wave can leave.
+template <int D>
+std::optional<std::string> gain_of_closed_box(const Scene<D>& scene, double steps) {
+  bool absorbs = false;
+  for (int axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1}) absorbs |= scene.edges[axis][side] == EdgeLaw::absorbing;
+  if (steps <= steps_without_gain || absorbs || !joins_unlike_solids(scene.model.medium)) return std::nullopt;
+  return "no edge absorbs, and waves along interfaces of unlike rocks may gain up to " +
+         shown(100 * std::expm1(gain_in_a_step * steps), 2) + " % of their amplitude in " +
+         shown(std::round(steps)) + " steps: let an edge absorb, or use larger cells";
+}
+
 }  // namespace
 
 template <int D>
@@ -448,8 +480,11 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
   };
   const auto in_a_fracture = source_in_a_fracture(scene);
   if (scene.numerics.bands.empty()) {
-    warn(scene.model.medium, time_step_s(scene));
+    const double step_s = time_step_s(scene);
+    warn(scene.model.medium, step_s);
     if (in_a_fracture) sentences.push_back(*in_a_fracture);
+    if (const auto gain = gain_of_closed_box(scene, scene.recording.duration_s / step_s))
+      sentences.push_back(*gain);
     return sentences;
   }
   const auto bands = scenes_of_bands(scene);

@@ -69,6 +69,24 @@ TEST_F(ShootBadInput, ASourceInTheCellsOfAFractureIsAWarning) {
   EXPECT_FALSE(warned("--compliance 1e-10,3e-10 --faces", "97"));
 }
 
+TEST_F(ShootBadInput, ALongRunInAClosedBoxOfUnlikeRocksIsAWarning) {
+  const auto warned = [&](const std::string& layers, const std::string& options) {
+    done("sw-layers --size 40x40 --step 5 " + layers + " -o box.nc");
+    const Ran ran =
+        run("sw-shoot box.nc --source 20,10 --wavelet ricker:20 --time 14 --dt 0.1 --receivers 20,20 " +
+            options + " -o box.sgy");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    return ran.err.find(
+               "warning: no edge absorbs, and waves along interfaces of unlike rocks may gain up to 32 % "
+               "of their amplitude in 11000 steps") != std::string::npos;
+  };
+  const std::string closed = "--sides free --time-step 0.001272727272727273 ",
+                    unlike = "--layer 0:900:300:1800 --layer 20:3500:2000:2300";
+  EXPECT_TRUE(warned(unlike, closed + "--bottom rigid"));
+  EXPECT_FALSE(warned(unlike, closed + "--bottom absorbing"));
+  EXPECT_FALSE(warned("--layer 0:3500:2000:2300", closed + "--bottom rigid"));
+}
+
 TEST_F(ShootBadInput, WavesTooShortForTheGridAreAWarningThatSaysTheCost) {
   const std::string line = shoot + "--source 100,50 --wavelet ricker:60 --receivers 3,3 --time 0.1 ";
   const Ran ran = run(line);
