@@ -26,7 +26,7 @@ TEST(EnergyOfAnisotropicRock, NeverRises) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto random = [&] { return uniform(engine); };
-  const int media = long_form() ? 12 : 4, steps = long_form() ? 20000 : 400;
+  const int media = long_form() ? 6 : 4, steps = long_form() ? 20000 : 400;
   for (int n = 0; n < media; ++n)
     for (const int block : {1, 5})
       for (const int order : {3, 5, 7}) {

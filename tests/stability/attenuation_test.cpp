@@ -243,7 +243,7 @@ void make_anisotropic(Medium<2>& medium, unsigned seed) {
 // Proves (Q9).
 TEST(Attenuation, OnlyTakesEnergyFromAnisotropicMediaOfAnyQ) {
   const ThreadLimit one_thread(1);
-  const int media = long_form() ? 12 : 3, steps = long_form() ? 20000 : 200, cells = 32;
+  const int media = long_form() ? 6 : 3, steps = long_form() ? 20000 : 200, cells = 32;
   for (int n = 0; n < media; ++n) {
     SCOPED_TRACE(n);
     auto medium = rock(cells, cells);
@@ -305,7 +305,7 @@ TEST(Attenuation, OnlyTakesEnergyFromRockInSpaceOfAnyQ) {
 // Proves (Q7).
 TEST(Attenuation, OnlyTakesEnergyFromMediaOfAnyQ) {
   const ThreadLimit one_thread(1);
-  const int media = long_form() ? 12 : 4, steps = long_form() ? 20000 : 200, cells = 32;
+  const int media = long_form() ? 6 : 4, steps = long_form() ? 20000 : 200, cells = 32;
   const auto& names = medium_names();
   for (int n = 0; n < media; ++n) {
     const auto& name = names[std::size_t(n * 3 + n / int(names.size())) % names.size()];

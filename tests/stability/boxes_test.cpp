@@ -138,7 +138,7 @@ TEST(Boxes, OfAnySizeBesideAnythingNeverGain) {
   const ThreadLimit one_thread{1};
   std::mt19937 engine(7);
   const auto one_of = [&](const auto& all) { return all[engine() % std::size(all)]; };
-  const int boxes = long_form() ? 60 : 4, most_cells = long_form() ? 12 : 8;
+  const int boxes = long_form() ? 16 : 4, most_cells = long_form() ? 12 : 8;
   for (int n = 0; n < boxes; ++n) {
     Box::Setup of{{}, one_of(std::array{9, 11})};
     for (auto& cells : of.shape) cells = 5 + std::int64_t(engine() % std::size_t(most_cells - 4));

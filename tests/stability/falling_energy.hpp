@@ -28,22 +28,26 @@ void expect_no_growth(Box& box, int steps, double rounding, int looks_every = 1,
   }
 }
 
+/// What (E10) may give back in a thousand steps where speeds differ, as a share of the energy: amplitudes of
+/// waves along an interface grow by 2.5e-5 in a step at most (theory/interfaces.md).
+constexpr double gain_of_interfaces = 2 * 2.5e-5 * 1000;
+
 /// Runs and expects that each thousand steps leave less energy than there was, but for `rounding` of the
-/// first: beside corrected surfaces and interfaces (E11) it wavers from step to step once most of it has
-/// left. Beside interfaces between unequal speeds some media give a little back, late (theory/interfaces.md):
-/// these fail.
+/// first and a `gain` of what was left: beside corrected surfaces and interfaces (E11) it wavers from step to
+/// step once most of it has left.
 template <class Box>
-void expect_fall_in_the_long_run(Box& box, int steps, double rounding = 0) {
+void expect_fall_in_the_long_run(Box& box, int steps, double rounding = 0, double gain = 0) {
   double before = box.energy();
   ASSERT_GT(before, 0);
-  const double lost_in_rounding = before * rounding;
+  const double begin = before, lost_in_rounding = before * rounding;
   for (int n = 1; n <= steps; ++n) {
     box.step();
     if (n % 1000 != 0) continue;
     const double now = box.energy();
     // Written so that NaN fails.
-    ASSERT_TRUE(now < before + lost_in_rounding)
-        << "step " << n << ": the energy is " << now << ", a thousand steps ago it was " << before;
+    ASSERT_TRUE(now < before * (1 + gain) + lost_in_rounding && now < begin * (1 + rounding))
+        << "step " << n << ": the energy is " << now << ", a thousand steps ago it was " << before
+        << ", at first " << begin;
     before = now;
   }
 }

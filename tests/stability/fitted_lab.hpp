@@ -129,7 +129,7 @@ void expect_no_growth(const Medium<D>& medium, const EdgeLaws<D>& edges, const N
                (sizeof(Real) == 4 ? ", float" : ", double"));
   FittedLab<D, Real> lab(medium, edges, numbers);
   expect_no_growth(lab, steps, rounding<Real>(), 10);
-  if (long_form()) expect_fall_in_the_long_run(lab, long_run, rounding<Real>());
+  if (long_form()) expect_fall_in_the_long_run(lab, long_run, rounding<Real>(), gain_of_interfaces);
 }
 
 }  // namespace slipwave

@@ -108,8 +108,8 @@ class Lab {
   void expect_no_growth(int steps, double rounding, double floor = 0) {
     slipwave::expect_no_growth(*this, steps, rounding, 1, floor);
   }
-  void expect_fall_in_the_long_run(int steps, double rounding = 0) {
-    slipwave::expect_fall_in_the_long_run(*this, steps, rounding);
+  void expect_fall_in_the_long_run(int steps, double rounding = 0, double gain = 0) {
+    slipwave::expect_fall_in_the_long_run(*this, steps, rounding, gain);
   }
 
  private:

@@ -17,7 +17,7 @@ void expect_bounded(const std::string& medium, int order, double cfl, EdgeLaw ed
   setup.order = order;
   setup.cfl = cfl;
   setup.monotone = true;
-  Lab<Real>(setup).expect_no_growth(long_form() ? 16000 : 250, rounding<Real>());
+  Lab<Real>(setup).expect_no_growth(long_form() ? 6000 : 250, rounding<Real>());
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   const std::function<double()> random = [&] { return uniform(engine); };
-  const int media = long_form() ? 12 : 4, steps = long_form() ? 20000 : 200;
+  const int media = long_form() ? 6 : 4, steps = long_form() ? 20000 : 200;
   for (int n = 0; n < media; ++n)
     for (const int block : {1, 4})
       for (const int order : {3, 5, 7}) {
@@ -146,7 +146,7 @@ TEST(EnergyOfTiltedRock, NeverRisesWhateverItIs) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(0, 1);
   const std::function<double()> random = [&] { return uniform(engine); };
-  const int media = long_form() ? 12 : 4, steps = long_form() ? 20000 : 200;
+  const int media = long_form() ? 6 : 4, steps = long_form() ? 20000 : 200;
   constexpr int cells = 24;
   for (int n = 0; n < media; ++n)
     for (const int block : {1, 6})
