@@ -54,6 +54,28 @@ TEST(ExtrudedScene, AlongYGivesTheTracesOf2D) {
     }
 }
 
+// Proves (Q8).
+TEST(ExtrudedScene, ThatAttenuatesGivesTheTracesOf2D) {
+  // Q from 20 to 50, other for P than for S.
+  auto both = extruded({0, 2}, edges_of(EdgeLaw::free, EdgeLaw::free, EdgeLaw::rigid), "force:1,2",
+                       "force:1,0,2", all, all);
+  const auto attenuate = [](auto& scene) {
+    auto& medium = scene.model.medium;
+    for (const auto property : {Property::qp, Property::qs}) {
+      auto& q = medium[property] = decltype(medium.vp)(medium.grid());
+      for (std::size_t n = 0; n < q.size(); ++n)
+        q[n] = (property == Property::qp ? 50.F : 20.F) * medium.rho[n] / 3000;
+    }
+    set_attenuation(scene);
+  };
+  both.flat.with_slip = both.deep.with_slip = false;
+  const auto lossless = samples_of(shoot(both.deep, 1));
+  attenuate(both.flat), attenuate(both.deep);
+  // Q that is off by a thousandth would make more than 1e-5.
+  EXPECT_LT(largest_error(both), 1e-8);
+  EXPECT_GT(relative_error(samples_of(shoot(both.deep, 1)), lossless), 0.05);
+}
+
 // Proves (E3).
 TEST(ExtrudedScene, AlongXGivesTheTracesOf2DSweptByHalves) {
   const std::vector<Component> of_yz = {Component::vy, Component::vz, Component::syy, Component::szz,
