@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 
@@ -223,9 +224,7 @@ Discretisation discretisation_of(const Scene<D>& scene) {
   return {scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order};
 }
 
-template class DirectWaves<2>;
-template class DirectWaves<3>;
-template Discretisation discretisation_of(const Scene<2>&);
-template Discretisation discretisation_of(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(TYPE, class DirectWaves);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, discretisation_of);
 
 }  // namespace slipwave

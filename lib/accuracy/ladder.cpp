@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/model_in_cells.hpp"
 #include "scene/bands.hpp"
 
@@ -143,10 +144,8 @@ std::vector<Gather> sum_of(std::vector<Gather> a, const std::vector<Gather>& b, 
   return a;
 }
 
-template AccuracySetting setting_of(const Scene<2>&);
-template AccuracySetting setting_of(const Scene<3>&);
-template Scene<2> with_setting(const Scene<2>&, const AccuracySetting&);
-template Scene<3> with_setting(const Scene<3>&, const AccuracySetting&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, setting_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, with_setting);
 template std::string name_of(const AccuracySetting&, const Scene<2>&);
 template std::string name_of(const AccuracySetting&, const Scene<3>&);
 

@@ -7,6 +7,7 @@
 
 #include "acquisition/direction.hpp"
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 
 namespace slipwave {
@@ -123,11 +124,8 @@ std::vector<GaugePoint<D>> gauge_points(const Fibre& fibre, std::span<const Poin
   return points;
 }
 
-template Fibre parse_fibre<2>(const std::string&);
-template Fibre parse_fibre<3>(const std::string&);
-template Point<2> direction_of<2>(const Fibre&);
-template Point<3> direction_of<3>(const Fibre&);
-template std::vector<GaugePoint<2>> gauge_points(const Fibre&, std::span<const Point<2>>, std::size_t);
-template std::vector<GaugePoint<3>> gauge_points(const Fibre&, std::span<const Point<3>>, std::size_t);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_fibre);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, direction_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, gauge_points);
 
 }  // namespace slipwave

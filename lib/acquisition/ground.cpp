@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -68,7 +70,6 @@ std::optional<double> Ground<D>::floor_m(const Point<D>& at) const {
   return depth_of(floor_, at);
 }
 
-template class Ground<2>;
-template class Ground<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class Ground);
 
 }  // namespace slipwave

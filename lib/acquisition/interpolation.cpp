@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 
 namespace {
@@ -271,14 +273,8 @@ TimeWeights time_integrals(double from, double to, std::int64_t low, std::int64_
   return result;
 }
 
-template std::vector<PointWeight<2>> point_weights<2>(const Grid<2>&, const Point<2>&,
-                                                      const std::array<AxisCells, 2>&, int);
-template std::vector<PointWeight<3>> point_weights<3>(const Grid<3>&, const Point<3>&,
-                                                      const std::array<AxisCells, 3>&, int);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, point_weights);
 
-template std::vector<PointWeight<2>> spread_point_weights<2>(const Grid<2>&, const Point<2>&,
-                                                             const std::array<AxisCells, 2>&);
-template std::vector<PointWeight<3>> spread_point_weights<3>(const Grid<3>&, const Point<3>&,
-                                                             const std::array<AxisCells, 3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_point_weights);
 
 }  // namespace slipwave

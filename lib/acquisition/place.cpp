@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 
 namespace slipwave {
@@ -97,7 +98,6 @@ std::vector<Place> parse_places(const std::string& text, bool of_receivers) {
   return places;
 }
 
-template std::vector<Place> parse_places<2>(const std::string&, bool);
-template std::vector<Place> parse_places<3>(const std::string&, bool);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_places);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 
 #include "acquisition/direction.hpp"
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 
 namespace slipwave {
@@ -226,13 +227,9 @@ std::string amplitude_help() {
   return help + "in 3-D " + joined(others, " and ");
 }
 
-template std::span<const SourceKind<2>> source_kinds<2>();
-template std::span<const SourceKind<3>> source_kinds<3>();
-template std::optional<PointInjection<2>> point_injection<2>(const Source<2>&);
-template std::optional<PointInjection<3>> point_injection<3>(const Source<3>&);
-template Mechanism<2> parse_mechanism<2>(const std::string&);
-template Mechanism<3> parse_mechanism<3>(const std::string&);
-template const char* name_of<2>(const Mechanism<2>&);
-template const char* name_of<3>(const Mechanism<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, source_kinds);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, point_injection);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_mechanism);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, name_of);
 
 }  // namespace slipwave

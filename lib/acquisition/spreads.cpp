@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 namespace {
@@ -201,7 +202,6 @@ double Spreads<D>::offset_change_m() const {
   return most;
 }
 
-template class Spreads<2>;
-template class Spreads<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class Spreads);
 
 }  // namespace slipwave

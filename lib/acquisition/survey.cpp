@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 
@@ -173,23 +174,13 @@ void check(const Survey<D>& survey, const Grid<D>& grid) {
   });
 }
 
-template bool is_inside<2>(const Point<2>&, const Grid<2>&);
-template bool is_inside<3>(const Point<3>&, const Grid<3>&);
-template void check_inside<2>(const std::string&, const Point<2>&, const Grid<2>&, const std::string&);
-template void check_inside<3>(const std::string&, const Point<3>&, const Grid<3>&, const std::string&);
-template struct Survey<2>;
-template struct Survey<3>;
-template void each_receiver(const Survey<2>&,
-                            const std::function<void(const Point<2>&, std::size_t, std::size_t)>&);
-template void each_receiver(const Survey<3>&,
-                            const std::function<void(const Point<3>&, std::size_t, std::size_t)>&);
-template std::string name_of_receiver(const Survey<2>&, std::size_t, std::size_t);
-template std::string name_of_receiver(const Survey<3>&, std::size_t, std::size_t);
-template void place(Survey<2>&, Ground<2>);
-template void place(Survey<3>&, Ground<3>);
-template bool needs_ground(const Survey<2>&);
-template bool needs_ground(const Survey<3>&);
-template void check<2>(const Survey<2>&, const Grid<2>&);
-template void check<3>(const Survey<3>&, const Grid<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, is_inside);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_inside);
+SLIPWAVE_INSTANTIATE_D(TYPE, struct Survey);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, each_receiver);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, name_of_receiver);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, place);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, needs_ground);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check);
 
 }  // namespace slipwave

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 namespace {
@@ -204,15 +205,10 @@ std::array<std::int64_t, D> parse_shape(std::string_view text) {
   return shape;
 }
 
-template std::array<double, 2> parse_point<2>(std::string_view);
-template std::array<double, 3> parse_point<3>(std::string_view);
-template std::vector<std::array<double, 2>> parse_line<2>(std::string_view);
-template std::vector<std::array<double, 3>> parse_line<3>(std::string_view);
-template Box<2> parse_box<2>(std::string_view);
-template Box<3> parse_box<3>(std::string_view);
-template std::array<double, 2> parse_size<2>(std::string_view);
-template std::array<double, 3> parse_size<3>(std::string_view);
-template std::array<std::int64_t, 2> parse_shape<2>(std::string_view);
-template std::array<std::int64_t, 3> parse_shape<3>(std::string_view);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_point);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_line);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_box);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_size);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_shape);
 
 }  // namespace slipwave

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "checkpoint/checksum.hpp"
 #include "scene/bands.hpp"
 
@@ -236,7 +237,6 @@ void serialize(Archive& archive, Identity& identity) {
   }
 }
 
-template Identity identity_of(const Scene<2>&);
-template Identity identity_of(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, identity_of);
 
 }  // namespace slipwave

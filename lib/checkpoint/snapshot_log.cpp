@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "io/temporary.hpp"
 
 namespace slipwave {
@@ -137,7 +138,6 @@ void remove_snapshot_logs(const std::string& begin) {
   }
 }
 
-template class SnapshotLog<2>;
-template class SnapshotLog<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class SnapshotLog);
 
 }  // namespace slipwave

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 
@@ -32,9 +33,7 @@ std::string shown_box(const Box<D>& box) {
   return text;
 }
 
-template Box<2> box_of_grid(const Grid<2>&);
-template Box<3> box_of_grid(const Grid<3>&);
-template std::string shown_box(const Box<2>&);
-template std::string shown_box(const Box<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, box_of_grid);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, shown_box);
 
 }  // namespace slipwave

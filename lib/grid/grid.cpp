@@ -2,6 +2,7 @@
 #include "grid/grid.hpp"
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 
@@ -30,9 +31,7 @@ std::string shown(const Grid<D>& grid) {
   return text + " cells of " + slipwave::shown(grid.spacing_m) + " m";
 }
 
-template std::string place_of<2>(const Grid<2>&, std::int64_t);
-template std::string place_of<3>(const Grid<3>&, std::int64_t);
-template std::string shown<2>(const Grid<2>&);
-template std::string shown<3>(const Grid<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, place_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, shown);
 
 }  // namespace slipwave

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_units.hpp"
 
@@ -369,17 +370,11 @@ void put_grid(NetcdfFile& file, const Grid<D>& grid) {
   if (is_fitted(grid)) put_depths(file, grid);
 }
 
-template std::vector<std::string> field_dimensions<2>();
-template std::vector<std::string> field_dimensions<3>();
-template Grid<2> read_grid<2>(const NetcdfFile&, bool);
-template Grid<3> read_grid<3>(const NetcdfFile&, bool);
-template void define_grid(NetcdfFile&, const Grid<2>&);
-template void define_grid(NetcdfFile&, const Grid<3>&);
-template void put_grid(NetcdfFile&, const Grid<2>&);
-template void put_grid(NetcdfFile&, const Grid<3>&);
-template void put_coordinates(NetcdfFile&, const Grid<2>&, const std::string&);
-template void put_coordinates(NetcdfFile&, const Grid<3>&, const std::string&);
-template std::string conventions_of(const Grid<2>&);
-template std::string conventions_of(const Grid<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, field_dimensions);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, read_grid);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, define_grid);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, put_grid);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, put_coordinates);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, conventions_of);
 
 }  // namespace slipwave

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 
 template <int D>
@@ -49,11 +51,8 @@ void place_at(ImportedField& field, const Point<3>& origin_m) {
   field.values = std::move(moved);
 }
 
-template ImportedField imported_from(const Field<2>&);
-template ImportedField imported_from(const Field<3>&);
-template Grid<2> grid_of<2>(const ImportedField&);
-template Grid<3> grid_of<3>(const ImportedField&);
-template Field<2> field_of<2>(const ImportedField&);
-template Field<3> field_of<3>(const ImportedField&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, imported_from);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, grid_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, field_of);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 
 namespace slipwave {
@@ -166,7 +167,6 @@ std::array<double, 2> RowDepths<D>::heights() const {
   return range;
 }
 
-template class RowDepths<2>;
-template class RowDepths<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class RowDepths);
 
 }  // namespace slipwave

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -92,10 +94,8 @@ Field<D> in_regular_depth(const Field<D>& field, DepthTake take) {
   return regular;
 }
 
-template std::vector<double> faces_of_column(const Grid<2>&, Index<2>);
-template std::vector<double> faces_of_column(const Grid<3>&, Index<3>);
-template std::array<double, 2> depth_extent(const Grid<2>&);
-template std::array<double, 2> depth_extent(const Grid<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, faces_of_column);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, depth_extent);
 template Grid<2> in_regular_depth(const Grid<2>&);
 template Grid<3> in_regular_depth(const Grid<3>&);
 template Field<2> in_regular_depth(const Field<2>&, DepthTake);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/fracture.hpp"
 #include "model/parted_faces.hpp"
@@ -79,7 +80,6 @@ std::optional<AnisotropicFault> fault_in_anisotropic_rock(const Model<D>& model)
   return std::nullopt;
 }
 
-template std::optional<AnisotropicFault> fault_in_anisotropic_rock(const Model<2>&);
-template std::optional<AnisotropicFault> fault_in_anisotropic_rock(const Model<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, fault_in_anisotropic_rock);
 
 }  // namespace slipwave

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 namespace {
@@ -301,16 +302,11 @@ std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, boo
   return in_space ? fault_in_space(material) : std::nullopt;
 }
 
-template bool any_orthorhombic(const Medium<2>&);
-template bool any_orthorhombic(const Medium<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, any_orthorhombic);
 
-template bool any_tilted_axes(const Medium<2>&);
-template bool any_tilted_axes(const Medium<3>&);
-template std::int64_t anisotropic_cells(const Medium<2>&);
-template std::int64_t anisotropic_cells(const Medium<3>&);
-template void complete_anisotropy(Medium<2>&);
-template void complete_anisotropy(Medium<3>&);
-template Medium<2> in_slowest_directions(const Medium<2>&);
-template Medium<3> in_slowest_directions(const Medium<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, any_tilted_axes);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, anisotropic_cells);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, complete_anisotropy);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, in_slowest_directions);
 
 }  // namespace slipwave

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/bulk_part.hpp"
 #include "model/tilted_mean.hpp"
 
@@ -405,13 +406,9 @@ LossyWaves lossy_waves(const ComplexStiffness& stiffness, double rho, double ang
   return waves;
 }
 
-template class StepwiseRelaxation<2>;
-template class StepwiseRelaxation<3>;
-template bool attenuates(const Medium<2>&, std::size_t);
-template bool attenuates(const Medium<3>&, std::size_t);
-template std::int64_t attenuating_cells(const Medium<2>&);
-template std::int64_t attenuating_cells(const Medium<3>&);
-template std::string unrelax(Medium<2>&, const Attenuation&);
-template std::string unrelax(Medium<3>&, const Attenuation&);
+SLIPWAVE_INSTANTIATE_D(TYPE, class StepwiseRelaxation);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, attenuates);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, attenuating_cells);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, unrelax);
 
 }  // namespace slipwave

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -83,9 +85,7 @@ double held_share(const Point<D>& normal, const Point<D>& edge, double lambda, d
   return D == 2 ? dipping : std::max(dipping, 1 - square);
 }
 
-template Point<2> edge_normal<2>(const Model<2>&, std::size_t);
-template Point<3> edge_normal<3>(const Model<3>&, std::size_t);
-template double held_share<2>(const Point<2>&, const Point<2>&, double, double);
-template double held_share<3>(const Point<3>&, const Point<3>&, double, double);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, edge_normal);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, held_share);
 
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
 #include "model/cluster_edge.hpp"
 
 namespace slipwave {
@@ -46,7 +47,6 @@ void ClusterShares<D>::put(std::size_t cell) {
   }
 }
 
-template class ClusterShares<2>;
-template class ClusterShares<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class ClusterShares);
 
 }  // namespace slipwave

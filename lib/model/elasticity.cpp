@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -220,23 +222,14 @@ TensorValues<D> strain_of_stress(const Elasticity<D>& elasticity, const TensorVa
   return strain;
 }
 
-template struct Elasticity<2>;
-template struct Elasticity<3>;
-template Elasticity<2> isotropic(double, double);
-template Elasticity<3> isotropic(double, double);
-template Elasticity<2> elasticity_of(const Material&);
-template Elasticity<3> elasticity_of(const Material&);
-template Elasticity<2> turned(const Elasticity<2>&, const RockAxes<2>&);
-template Elasticity<3> turned(const Elasticity<3>&, const RockAxes<3>&);
-template SmallMatrix<2> tractions(const Elasticity<2>&, const Point<2>&, const Point<2>&);
-template SmallMatrix<3> tractions(const Elasticity<3>&, const Point<3>&, const Point<3>&);
-template Point<2> phase_speeds(const Elasticity<2>&, double, const Point<2>&);
-template Point<3> phase_speeds(const Elasticity<3>&, double, const Point<3>&);
-template double backward_group_velocity(const Elasticity<2>&, int);
-template double backward_group_velocity(const Elasticity<3>&, int);
-template TensorValues<2> stress_of_strain(const Elasticity<2>&, const TensorValues<2>&);
-template TensorValues<3> stress_of_strain(const Elasticity<3>&, const TensorValues<3>&);
-template TensorValues<2> strain_of_stress(const Elasticity<2>&, const TensorValues<2>&);
-template TensorValues<3> strain_of_stress(const Elasticity<3>&, const TensorValues<3>&);
+SLIPWAVE_INSTANTIATE_D(TYPE, struct Elasticity);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, isotropic);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, turned);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, tractions);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, phase_speeds);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, backward_group_velocity);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, stress_of_strain);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, strain_of_stress);
 
 }  // namespace slipwave

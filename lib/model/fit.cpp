@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 
 namespace slipwave {
@@ -366,9 +367,7 @@ Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons,
   return fit;
 }
 
-template std::vector<Point<2>> corner_columns(const Grid<2>&);
-template std::vector<Point<3>> corner_columns(const Grid<3>&);
-template Fit<2> fit_grid(const Grid<2>&, const std::vector<FitHorizon>&, const FitChoice&);
-template Fit<3> fit_grid(const Grid<3>&, const std::vector<FitHorizon>&, const FitChoice&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, corner_columns);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, fit_grid);
 
 }  // namespace slipwave

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
 #include "model/anisotropy.hpp"
@@ -66,8 +67,7 @@ bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t c
   return set.traces.empty() && std::any_of(set.systems.begin(), set.systems.end(),
                                            [](const auto& system) { return is_oblique<D>(system.normal); });
 }
-template bool lie_askew(const FractureSet<2>&, const Medium<2>&, std::size_t);
-template bool lie_askew(const FractureSet<3>&, const Medium<3>&, std::size_t);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, lie_askew);
 
 Point<3> normal_of_dip(double dip_deg, double azimuth_deg) {
   const auto [across, down] = normal_of_dip(dip_deg);
@@ -383,32 +383,16 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set, const Re
   return count;
 }
 
-template Point<2> unit_normal<2>(const Point<2>&);
-template Point<3> unit_normal<3>(const Point<3>&);
-template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
-template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
-template void set_friction_law<2>(SlipSystem<2>&, const std::string&);
-template void set_friction_law<3>(SlipSystem<3>&, const std::string&);
-template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);
-template FrictionConstants<double> constants_of<2, double>(const SlipSystem<2>&, double);
-template FrictionConstants<float> constants_of<3, float>(const SlipSystem<3>&, double);
-template FrictionConstants<double> constants_of<3, double>(const SlipSystem<3>&, double);
-template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
-template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
-template void remove_effect(Model<2>&, ModelEffect);
-template void remove_effect(Model<3>&, ModelEffect);
-template bool has_effect(const Model<2>&, ModelEffect);
-template bool has_effect(const Model<3>&, ModelEffect);
-template std::vector<std::string> leave_out_inert(Model<2>&, double);
-template std::vector<std::string> leave_out_inert(Model<3>&, double);
-template std::vector<std::size_t> find_solid_cells<2>(const Model<2>&,
-                                                      const std::function<bool(const Point<2>&)>&,
-                                                      FractureCount&);
-template std::vector<std::size_t> find_solid_cells<3>(const Model<3>&,
-                                                      const std::function<bool(const Point<3>&)>&,
-                                                      FractureCount&);
-template void check_room_for_set(const Model<2>&);
-template void check_room_for_set(const Model<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, unit_normal);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, at_right_angles);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, set_friction_law);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, constants_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, critical_length);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, remove_effect);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, has_effect);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, leave_out_inert);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, find_solid_cells);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_room_for_set);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,

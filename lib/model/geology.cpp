@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/well_log.hpp"
 
 namespace slipwave {
@@ -52,9 +53,7 @@ Medium<D> medium_of(const Geology& geology, const Grid<D>& regular) {
   return layered_medium(fit.grid, layers_in(regular.spacing_m, geology.layers), geology.average, fit.rows);
 }
 
-template Fit<2> fit_of(const Geology&, const Grid<2>&);
-template Fit<3> fit_of(const Geology&, const Grid<3>&);
-template Medium<2> medium_of(const Geology&, const Grid<2>&);
-template Medium<3> medium_of(const Geology&, const Grid<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, fit_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, medium_of);
 
 }  // namespace slipwave

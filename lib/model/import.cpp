@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/layers.hpp"
 #include "model/relations.hpp"
@@ -79,8 +80,7 @@ void add_property(Medium<D>& medium, Property property, Field<D> field) {
   complete_anisotropy(medium);
 }
 
-template Field<2> field_from_raw(const std::vector<char>&, const Grid<2>&, FastAxis);
-template Field<3> field_from_raw(const std::vector<char>&, const Grid<3>&, FastAxis);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, field_from_raw);
 
 Medium<3> extruded(const Medium<2>& medium, double length_m) {
   const auto& flat = medium.grid();
@@ -98,8 +98,7 @@ Medium<3> extruded(const Medium<2>& medium, double length_m) {
   return deep;
 }
 
-template void add_property(Medium<2>&, Property, Field<2>);
-template void add_property(Medium<3>&, Property, Field<3>);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, add_property);
 template Medium<2> medium_of(Field<2>, std::optional<Field<2>>, std::optional<Field<2>>, double);
 template Medium<3> medium_of(Field<3>, std::optional<Field<3>>, std::optional<Field<3>>, double);
 

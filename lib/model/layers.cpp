@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cut_cell.hpp"
@@ -593,20 +594,12 @@ std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<L
   return sentences;
 }
 
-template Grid<2> grid_of_size<2>(const Point<2>&, double);
-template Grid<3> grid_of_size<3>(const Point<3>&, double);
-template Grid<2> grid_over<2>(const Point<2>&, double);
-template Grid<3> grid_over<3>(const Point<3>&, double);
-template void check_reach(const Grid<2>&, const Horizon&);
-template void check_reach(const Grid<3>&, const Horizon&);
-template Fit<2> fit_layers(const Grid<2>&, const std::vector<Layer>&, const FitChoice&);
-template Fit<3> fit_layers(const Grid<3>&, const std::vector<Layer>&, const FitChoice&);
-template Medium<2> layered_medium(const Grid<2>&, const std::vector<Layer>&, Average,
-                                  const std::vector<std::int64_t>&);
-template Medium<3> layered_medium(const Grid<3>&, const std::vector<Layer>&, Average,
-                                  const std::vector<std::int64_t>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, grid_of_size);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, grid_over);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_reach);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, fit_layers);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, layered_medium);
 
-template std::vector<std::string> cut_off_layers(const Grid<2>&, const std::vector<Layer>&);
-template std::vector<std::string> cut_off_layers(const Grid<3>&, const std::vector<Layer>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cut_off_layers);
 
 }  // namespace slipwave

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 
 template <int D>
@@ -42,7 +44,6 @@ bool Medium<D>::same(std::size_t a, std::size_t b) const {
   return alike(vp) && alike(vs) && alike(rho) && std::all_of(optional_.begin(), optional_.end(), alike);
 }
 
-template class Medium<2>;
-template class Medium<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class Medium);
 
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/attenuation.hpp"
 #include "model/fracture.hpp"
@@ -290,7 +291,6 @@ void check(const Model<D>& model, const MediumLimits& limits) {
   check_prestress(model);
 }
 
-template void check(const Model<2>&, const MediumLimits&);
-template void check(const Model<3>&, const MediumLimits&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/layers.hpp"
 #include "model/resample.hpp"
 #include "model/single_fracture.hpp"
@@ -187,7 +188,6 @@ Model<D> ModelInCells<D>::with_medium(Medium<D> medium) const {
   return changed;
 }
 
-template class ModelInCells<2>;
-template class ModelInCells<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class ModelInCells);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_units.hpp"
@@ -512,12 +513,9 @@ void write_model(const Model<D>& model, const std::string& path) {
   write_model(model, out);
 }
 
-template std::vector<FractureSet<2>> read_fracture_sets<2>(const NetcdfFile&);
-template std::vector<FractureSet<3>> read_fracture_sets<3>(const NetcdfFile&);
-template Grid<2> read_model_grid(const NetcdfFile&);
-template Grid<3> read_model_grid(const NetcdfFile&);
-template Model<2> read_model_rows<2>(const NetcdfFile&, std::int64_t, std::int64_t);
-template Model<3> read_model_rows<3>(const NetcdfFile&, std::int64_t, std::int64_t);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, read_fracture_sets);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, read_model_grid);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, read_model_rows);
 template Model<2> read_model<2>(const NetcdfFile&);
 template Model<3> read_model<3>(const NetcdfFile&);
 template Model<2> read_model<2>(const std::string&);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/anisotropy.hpp"
@@ -270,7 +271,6 @@ std::string kind_of(const NetcdfFile& file) {
   return in_space && file.dimension_length("time") ? "snapshots" : "netCDF";
 }
 
-template Report report_of(const Model<2>&);
-template Report report_of(const Model<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, report_of);
 
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "base/instantiate.hpp"
 #include "base/memory.hpp"
 
 namespace slipwave {
@@ -15,7 +16,6 @@ void release_zeros(const Model<D>& model) {
   release(model.fracture);
 }
 
-template void release_zeros(const Model<2>&);
-template void release_zeros(const Model<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, release_zeros);
 
 }  // namespace slipwave

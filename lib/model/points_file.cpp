@@ -2,6 +2,7 @@
 #include "model/points_file.hpp"
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "io/column_header.hpp"
 #include "io/input_bytes.hpp"
@@ -135,7 +136,6 @@ std::size_t columns_of_text(std::string_view text) {
   return columns;
 }
 
-template std::vector<NumberedPoint<2>> points_of_text<2>(std::string_view);
-template std::vector<NumberedPoint<3>> points_of_text<3>(std::string_view);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, points_of_text);
 
 }  // namespace slipwave

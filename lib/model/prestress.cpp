@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "fracture/coulomb.hpp"
 #include "model/anisotropy.hpp"
@@ -197,11 +198,8 @@ void check_prestress(const Model<D>& model) {
   }
 }
 
-template Prestress<2> parse_prestress<2>(const std::string&);
-template Prestress<3> parse_prestress<3>(const std::string&);
-template void set_prestress(Model<2>&, std::size_t, const Prestress<2>&);
-template void set_prestress(Model<3>&, std::size_t, const Prestress<3>&);
-template void check_prestress(const Model<2>&);
-template void check_prestress(const Model<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_prestress);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, set_prestress);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_prestress);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/import.hpp"
 
 namespace slipwave {
@@ -183,7 +184,6 @@ std::string doubt_of_depth(const Field<3>& speeds) {
          shown(means.back(), 4) + " in the last, as those of a file from the bottom up do";
 }
 
-template void check_raw_shape(const std::vector<char>&, const Grid<2>&, FastAxis);
-template void check_raw_shape(const std::vector<char>&, const Grid<3>&, FastAxis);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_raw_shape);
 
 }  // namespace slipwave

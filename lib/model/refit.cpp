@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/averaging.hpp"
 #include "model/cluster_shares.hpp"
 #include "model/fit.hpp"
@@ -223,7 +224,6 @@ Model<D> refitted(const Model<D>& model, double spacing_m, Extent extent) {
   return Refit<D>(model, fit.grid).filled();
 }
 
-template Model<2> refitted(const Model<2>&, double, Extent);
-template Model<3> refitted(const Model<3>&, double, Extent);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, refitted);
 
 }  // namespace slipwave

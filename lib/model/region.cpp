@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "io/input_bytes.hpp"
 #include "model/frame.hpp"
 #include "model/points_file.hpp"
@@ -174,13 +175,9 @@ RegionIn<D> parse_slab(std::string_view text) {
           [chord](const Box<D>& cell) { return share_of_chords(cell, chord); }};
 }
 
-template double share_within(const RegionIn<2>&, const Box<2>&);
-template double share_within(const RegionIn<3>&, const Box<3>&);
-template RegionIn<2> region_of_box(const Box<2>&);
-template RegionIn<3> region_of_box(const Box<3>&);
-template RegionIn<2> parse_ellipse<2>(std::string_view);
-template RegionIn<3> parse_ellipse<3>(std::string_view);
-template RegionIn<2> parse_slab<2>(std::string_view);
-template RegionIn<3> parse_slab<3>(std::string_view);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, share_within);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, region_of_box);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_ellipse);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_slab);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "model/anisotropy.hpp"
 
@@ -86,13 +87,9 @@ void add_constant(Medium<D>& medium, Property property, double value) {
   complete_anisotropy(medium);
 }
 
-template void add_q_from_vs(Medium<2>&, const std::string&);
-template void add_q_from_vs(Medium<3>&, const std::string&);
-template void add_constant(Medium<2>&, Property, double);
-template void add_constant(Medium<3>&, Property, double);
-template Field<2> vs_by_castagna(const Field<2>&, double);
-template Field<3> vs_by_castagna(const Field<3>&, double);
-template Field<2> rho_by_gardner(const Field<2>&, const Field<2>&);
-template Field<3> rho_by_gardner(const Field<3>&, const Field<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, add_q_from_vs);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, add_constant);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, vs_by_castagna);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, rho_by_gardner);
 
 }  // namespace slipwave

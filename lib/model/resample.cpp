@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/averaging.hpp"
 #include "model/cluster_shares.hpp"
 #include "model/layers.hpp"
@@ -301,11 +302,8 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   return result;
 }
 
-template Model<2> regridded(const Model<2>&, double, Extent);
-template Model<3> regridded(const Model<3>&, double, Extent);
-template Model<2> resampled(const Model<2>&, double, bool, Extent);
-template Model<3> resampled(const Model<3>&, double, bool, Extent);
-template Model<2> cropped(const Model<2>&, const Box<2>&);
-template Model<3> cropped(const Model<3>&, const Box<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, regridded);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, resampled);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cropped);
 
 }  // namespace slipwave

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/tensor.hpp"
 #include "model/frame.hpp"
 #include "model/noise.hpp"
@@ -109,7 +110,6 @@ RegionIn<D> scattered_in(const RegionIn<D>& region, const Scatter& scatter) {
           [whole = region.contains, all](const Point<D>& at) { return whole(at) && all.contain(at); }, share};
 }
 
-template RegionIn<2> scattered_in(const RegionIn<2>&, const Scatter&);
-template RegionIn<3> scattered_in(const RegionIn<3>&, const Scatter&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, scattered_in);
 
 }  // namespace slipwave

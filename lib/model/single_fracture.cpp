@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "grid/extent.hpp"
 #include "io/input_bytes.hpp"
@@ -157,8 +158,7 @@ std::vector<FractureTrace<D>> read_fracture_traces(const std::string& path) {
     return traces;
   });
 }
-template std::vector<FractureTrace<2>> read_fracture_traces<2>(const std::string&);
-template std::vector<FractureTrace<3>> read_fracture_traces<3>(const std::string&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, read_fracture_traces);
 
 Point<2> normal_between_tips(const FractureTrace<2>& trace) {
   // Of a closed one the first piece.
@@ -291,8 +291,7 @@ void place_single_fractures(Model<D>& model) {
   for (std::size_t code = 1; code <= sets.size(); ++code)
     if (!sets[code - 1].traces.empty() && !sets[code - 1].on_faces) mark(model, code);
 }
-template void place_single_fractures(Model<2>&);
-template void place_single_fractures(Model<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, place_single_fractures);
 
 void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace) {
   if (trace.size() < 2)
@@ -337,7 +336,6 @@ FractureCount add_single_fractures(Model<D>& model, const FractureSet<D>& set) {
                 " cells that the fractures lie in is solid, at least one must be");
   return count;
 }
-template FractureCount add_single_fractures(Model<2>&, const FractureSet<2>&);
-template FractureCount add_single_fractures(Model<3>&, const FractureSet<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, add_single_fractures);
 
 }  // namespace slipwave

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/tensor.hpp"
 
 namespace slipwave {
@@ -72,11 +73,7 @@ BandGrowth band_growth(double friction, double vp, double vs) {
   return most;
 }
 
-template PlanesUnderWave planes_under<2>(const Model<2>&, std::size_t, const SlipSystem<2>&,
-                                         const WaveOnPlanes&);
-template PlanesUnderWave planes_under<3>(const Model<3>&, std::size_t, const SlipSystem<3>&,
-                                         const WaveOnPlanes&);
-template PlanesUnderWave competing_slip<2>(const Model<2>&, std::size_t, const WaveOnPlanes&);
-template PlanesUnderWave competing_slip<3>(const Model<3>&, std::size_t, const WaveOnPlanes&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, planes_under);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, competing_slip);
 
 }  // namespace slipwave

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 namespace {
@@ -80,19 +81,12 @@ std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<D>& medium, std
   return fault;
 }
 
-template std::vector<std::size_t> cells_of_tilted_means(const Medium<2>&);
-template std::vector<std::size_t> cells_of_tilted_means(const Medium<3>&);
-template Material tilted_mean_of(const Medium<2>&, std::size_t);
-template Material tilted_mean_of(const Medium<3>&, std::size_t);
-template void add_tilted_means(Medium<2>&);
-template void add_tilted_means(Medium<3>&);
-template void put_tilted_mean(Medium<2>&, std::size_t, const Material&, double);
-template void put_tilted_mean(Medium<3>&, std::size_t, const Material&, double);
-template void drop_tilted_means(Medium<2>&);
-template void drop_tilted_means(Medium<3>&);
-template double fastest_in_tilted_mean(const Medium<2>&, std::size_t);
-template double fastest_in_tilted_mean(const Medium<3>&, std::size_t);
-template std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<2>&, std::size_t);
-template std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<3>&, std::size_t);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cells_of_tilted_means);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, tilted_mean_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, add_tilted_means);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, put_tilted_mean);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, drop_tilted_means);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, fastest_in_tilted_mean);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, fault_of_tilted_mean);
 
 }  // namespace slipwave

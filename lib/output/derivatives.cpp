@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 
 namespace {
@@ -96,9 +98,7 @@ std::array<Field<3>, 3> curl(const std::array<Field<3>, 3>& velocity) {
           difference(derivative<3>(y, 0), derivative<3>(x, 1))};
 }
 
-template Field<2> derivative<2>(const Field<2>&, int);
-template Field<3> derivative<3>(const Field<3>&, int);
-template Field<2> divergence<2>(const std::array<Field<2>, 2>&);
-template Field<3> divergence<3>(const std::array<Field<3>, 3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, derivative);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, divergence);
 
 }  // namespace slipwave

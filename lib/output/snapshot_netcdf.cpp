@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "grid/grid_netcdf.hpp"
 
@@ -172,13 +173,9 @@ void SnapshotWriter<D>::commit_as(const std::string& path) {
   out_.commit_as(path);
 }
 
-template const std::vector<SnapshotField>& snapshot_fields<2>();
-template const std::vector<SnapshotField>& snapshot_fields<3>();
-template const SnapshotField& snapshot_field<2>(const std::string&);
-template const SnapshotField& snapshot_field<3>(const std::string&);
-template std::vector<std::string> parse_snapshot_fields<2>(const std::string&);
-template std::vector<std::string> parse_snapshot_fields<3>(const std::string&);
-template class SnapshotWriter<2>;
-template class SnapshotWriter<3>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, snapshot_fields);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, snapshot_field);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_snapshot_fields);
+SLIPWAVE_INSTANTIATE_D(TYPE, class SnapshotWriter);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/grid_netcdf.hpp"
 
 namespace slipwave {
@@ -66,7 +67,6 @@ std::string SnapshotReader<D>::unit(const std::string& field) const {
   return file_.text_attribute(field, "units").value_or("");
 }
 
-template class SnapshotReader<2>;
-template class SnapshotReader<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class SnapshotReader);
 
 }  // namespace slipwave

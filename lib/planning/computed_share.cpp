@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "acquisition/fibre.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/coefficients.hpp"
@@ -241,7 +242,6 @@ double expected_share(const Scene<D>& scene, const Grid<D>& computed) {
   return share / seen;
 }
 
-template double expected_share(const Scene<2>&, const Grid<2>&);
-template double expected_share(const Scene<3>&, const Grid<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, expected_share);
 
 }  // namespace slipwave

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/tensor.hpp"
 #include "model/slip_regime.hpp"
 
@@ -205,9 +206,7 @@ std::vector<std::string> cell_dependence(const Scene<D>& scene) {
   return sentences;
 }
 
-template std::vector<std::string> cell_dependence(const Scene<2>&);
-template std::vector<std::string> cell_dependence(const Scene<3>&);
-template std::vector<std::string> expected_slip(const Scene<2>&);
-template std::vector<std::string> expected_slip(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cell_dependence);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, expected_slip);
 
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/instantiate.hpp"
 #include "planning/plan.hpp"
 
 namespace slipwave {
@@ -30,7 +31,6 @@ AccuracyRow measured(SceneRuns<D>& runs, const AccuracySetting& setting, const s
   return row;
 }
 
-template AccuracyRow measured(SceneRuns<2>&, const AccuracySetting&, const std::vector<Gather>&);
-template AccuracyRow measured(SceneRuns<3>&, const AccuracySetting&, const std::vector<Gather>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, measured);
 
 }  // namespace slipwave

@@ -9,6 +9,7 @@
 
 #include "accuracy/sizes.hpp"
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "scene/orders.hpp"
 
@@ -306,17 +307,11 @@ std::string sentence_of(const MeasuredError& measured, const SceneRuns<D>& runs)
          ", channel " + std::to_string(error.worst_channel) + ")";
 }
 
-template std::vector<AccuracySetting> other_sizes(const SceneRuns<2>&, const AccuracySetting&);
-template std::vector<AccuracySetting> other_sizes(const SceneRuns<3>&, const AccuracySetting&);
-template double nearest_receiver_m(const SceneRuns<2>&);
-template std::optional<AccuracySetting> with_wider_edges(const SceneRuns<2>&, AccuracySetting);
-template double nearest_receiver_m(const SceneRuns<3>&);
-template std::optional<AccuracySetting> with_wider_edges(const SceneRuns<3>&, AccuracySetting);
-template MeasuredError measured_error(SceneRuns<2>&, const AccuracySetting&, const Measured&);
-template MeasuredError measured_error(SceneRuns<3>&, const AccuracySetting&, const Measured&);
-template std::vector<std::size_t> representative_shots(const Survey<2>&);
-template std::vector<std::size_t> representative_shots(const Survey<3>&);
-template std::string sentence_of(const MeasuredError&, const SceneRuns<2>&);
-template std::string sentence_of(const MeasuredError&, const SceneRuns<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, other_sizes);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, nearest_receiver_m);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, with_wider_edges);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, measured_error);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, representative_shots);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, sentence_of);
 
 }  // namespace slipwave

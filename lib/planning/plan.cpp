@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/memory.hpp"
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
@@ -499,19 +500,12 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
   return sentences;
 }
 
-template Plan<2> plan(const Scene<2>&);
-template std::int64_t memory_of_run_bytes(const Plan<2>&, const ShotsHeld&);
-template std::int64_t memory_of_run_bytes(const Plan<3>&, const ShotsHeld&);
-template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
-template std::string cost_of_a_second(const Scene<2>&);
-template Report summary_of(const Plan<2>&, const ShotsHeld&);
-template Report report_of(const Plan<2>&);
-template std::vector<std::string> warnings(const Scene<2>&);
-template Plan<3> plan(const Scene<3>&);
-template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
-template std::string cost_of_a_second(const Scene<3>&);
-template Report summary_of(const Plan<3>&, const ShotsHeld&);
-template Report report_of(const Plan<3>&);
-template std::vector<std::string> warnings(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, plan);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, memory_of_run_bytes);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, memory_of_a_shot_bytes);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cost_of_a_second);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, summary_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, report_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, warnings);
 
 }  // namespace slipwave

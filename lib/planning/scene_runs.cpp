@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/processor_time.hpp"
 #include "grid/locate.hpp"
 #include "scene/bands.hpp"
@@ -203,7 +204,6 @@ double SceneRuns<D>::seconds() const {
   return sum;
 }
 
-template class SceneRuns<2>;
-template class SceneRuns<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class SceneRuns);
 
 }  // namespace slipwave

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/instantiate.hpp"
 #include "planning/measured_error.hpp"
 
 namespace slipwave {
@@ -158,7 +159,6 @@ std::optional<AccuracySetting> SettingSearch<D>::cheapest(double wanted, const K
   return best;
 }
 
-template class SettingSearch<2>;
-template class SettingSearch<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class SettingSearch);
 
 }  // namespace slipwave

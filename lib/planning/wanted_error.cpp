@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "planning/plan.hpp"
 #include "planning/setting_search.hpp"
 
@@ -241,9 +242,6 @@ ReachedError reach_error(SceneRuns<D>& runs, double wanted, const SearchLimits& 
   return Search<D>(runs, wanted, limits, say).reached();
 }
 
-template ReachedError reach_error(SceneRuns<2>&, double, const SearchLimits&,
-                                  const std::function<void(const std::string&)>&);
-template ReachedError reach_error(SceneRuns<3>&, double, const SearchLimits&,
-                                  const std::function<void(const std::string&)>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, reach_error);
 
 }  // namespace slipwave

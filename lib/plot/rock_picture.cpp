@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/elasticity.hpp"
@@ -209,7 +210,6 @@ Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuat
   return {canvas.finish(), canvas.words()};
 }
 
-template RockAt rock_at(const Model<2>&, const Point<2>&);
-template RockAt rock_at(const Model<3>&, const Point<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, rock_at);
 
 }  // namespace slipwave::plot

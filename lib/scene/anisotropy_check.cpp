@@ -2,6 +2,7 @@
 #include "scene/anisotropy_check.hpp"
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "model/anisotropic_fractures.hpp"
 
 namespace slipwave {
@@ -14,7 +15,6 @@ void check_anisotropy(const Scene<D>& scene) {
                 " or --without anisotropy");
 }
 
-template void check_anisotropy(const Scene<2>&);
-template void check_anisotropy(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_anisotropy);
 
 }  // namespace slipwave

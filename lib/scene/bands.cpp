@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "model/coefficients.hpp"
 #include "model/parted_faces.hpp"
@@ -558,9 +559,7 @@ ChosenBands bands_for(const Scene<D>& scene) {
   return best;
 }
 
-template ChosenBands bands_for(const Scene<2>&);
-template ChosenBands bands_for(const Scene<3>&);
-template std::vector<Scene<2>> scenes_of_bands(const Scene<2>&);
-template std::vector<Scene<3>> scenes_of_bands(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, bands_for);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, scenes_of_bands);
 
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 
 namespace slipwave {
@@ -96,7 +97,6 @@ Gather in_record(Gather gather, const Recording& recording) {
   return gather;
 }
 
-template Gather empty_gather(const Scene<2>&, std::size_t, Ranks*);
-template Gather empty_gather(const Scene<3>&, std::size_t, Ranks*);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, empty_gather);
 
 }  // namespace slipwave

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/gauges.hpp"
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 
 template <int D>
@@ -31,11 +33,7 @@ void each_gauge_point(const Scene<D>& scene,
   }
 }
 
-template std::vector<std::vector<GaugePoint<2>>> gauges_of(const Scene<2>&, std::size_t);
-template std::vector<std::vector<GaugePoint<3>>> gauges_of(const Scene<3>&, std::size_t);
-template void each_gauge_point(const Scene<2>&,
-                               const std::function<void(const Point<2>&, std::size_t, std::size_t)>&);
-template void each_gauge_point(const Scene<3>&,
-                               const std::function<void(const Point<3>&, std::size_t, std::size_t)>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, gauges_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, each_gauge_point);
 
 }  // namespace slipwave

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "grid/tensor.hpp"
 #include "model/parted_faces.hpp"
@@ -101,7 +102,6 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   return to_spare * sum;
 }
 
-template double largest_velocity(const Scene<2>&, std::size_t, Ranks*);
-template double largest_velocity(const Scene<3>&, std::size_t, Ranks*);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, largest_velocity);
 
 }  // namespace slipwave

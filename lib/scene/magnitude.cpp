@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "scene/largest_velocity.hpp"
 
 namespace slipwave {
@@ -41,7 +42,6 @@ void check_magnitudes(const Scene<D>& scene, Ranks* ranks) {
   }
 }
 
-template void check_magnitudes(const Scene<2>&, Ranks*);
-template void check_magnitudes(const Scene<3>&, Ranks*);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_magnitudes);
 
 }  // namespace slipwave

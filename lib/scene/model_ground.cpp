@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/model_ground.hpp"
 
+#include "base/instantiate.hpp"
+
 namespace slipwave {
 
 template <int D>
@@ -17,7 +19,6 @@ bool see(Ground<D>& ground, const Medium<D>& medium) {
   return false;
 }
 
-template bool see(Ground<2>&, const Medium<2>&);
-template bool see(Ground<3>&, const Medium<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, see);
 
 }  // namespace slipwave

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/plane_motion.hpp"
@@ -281,7 +282,6 @@ PlaneWaveWay<D> way_of_plane_wave(const Scene<D>& scene, const Source<D>& source
   return way;
 }
 
-template PlaneWaveWay<2> way_of_plane_wave(const Scene<2>&, const Source<2>&);
-template PlaneWaveWay<3> way_of_plane_wave(const Scene<3>&, const Source<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, way_of_plane_wave);
 
 }  // namespace slipwave

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
@@ -363,23 +364,16 @@ double highest_frequency_hz(const Survey<D>& survey) {
   return highest;
 }
 
-template struct Scene<2>;
+SLIPWAVE_INSTANTIATE_D(TYPE, struct Scene);
 template Scene<2> in_cells_of(const Scene<2>&, double);
 template Scene<3> in_cells_of(const Scene<3>&, double);
-template std::vector<std::string> set_attenuation(Scene<2>&, const AttenuationChoice&);
-template double stable_time_step_s(const Scene<2>&);
-template double time_step_s(const Scene<2>&);
-template int zone_cells(const Scene<2>&, const Source<2>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, set_attenuation);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, stable_time_step_s);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, time_step_s);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, zone_cells);
 template void check(const Scene<2>&);
-template SlowestWave slowest_wave(const Medium<2>&);
-template double highest_frequency_hz(const Survey<2>&);
-template struct Scene<3>;
-template std::vector<std::string> set_attenuation(Scene<3>&, const AttenuationChoice&);
-template double stable_time_step_s(const Scene<3>&);
-template double time_step_s(const Scene<3>&);
-template int zone_cells(const Scene<3>&, const Source<3>&);
 template void check(const Scene<3>&);
-template SlowestWave slowest_wave(const Medium<3>&);
-template double highest_frequency_hz(const Survey<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, slowest_wave);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, highest_frequency_hz);
 
 }  // namespace slipwave

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "acquisition/interpolation.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/coefficients.hpp"
@@ -240,31 +241,18 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
-template std::vector<std::array<bool, 2>> askew_sets(const Model<2>&);
-template std::vector<std::array<bool, 2>> askew_sets(const Model<3>&);
-template bool has_shear(const Medium<2>&);
-template bool has_shear(const Medium<3>&);
-template bool has_void(const Medium<2>&);
-template bool has_void(const Medium<3>&);
-template bool couples_pairs(const Medium<2>&, int);
-template bool couples_pairs(const Medium<3>&, int);
-template Medium<2> rows_of(const Medium<2>&, std::int64_t, std::int64_t);
-template Medium<3> rows_of(const Medium<3>&, std::int64_t, std::int64_t);
-template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<2>&, const Subdomain&);
-template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<3>&, const Subdomain&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, askew_sets);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, has_shear);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, has_void);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, couples_pairs);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, rows_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, side_speeds);
 
-template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
-                                          const std::array<std::int64_t, 2>&);
-template std::int64_t spread_of_a_step<3>(const std::vector<SweepFraction>&, int, std::int64_t,
-                                          const std::array<std::int64_t, 3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_of_a_step);
 
-template std::int64_t spread_of_a_tile(const Scene<2>&);
-template std::int64_t spread_of_a_tile(const Scene<3>&);
-template Subdomain subdomain_for(const Scene<2>&, const Grid<2>&, int, int);
-template Subdomain subdomain_for(const Scene<3>&, const Grid<3>&, int, int);
-template Scene<2> cut_to(Scene<2>, const Subdomain&);
-template Scene<3> cut_to(Scene<3>, const Subdomain&);
-template void join(Scene<2>&, Ranks&);
-template void join(Scene<3>&, Ranks&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_of_a_tile);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, subdomain_for);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cut_to);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, join);
 
 }  // namespace slipwave

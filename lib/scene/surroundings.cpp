@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
 
@@ -148,7 +149,6 @@ std::string surroundings(const Scene<D>& scene, std::size_t shot, const Index<D>
          " rho=" + shown(medium.rho[inside]) + anisotropy + nearby.text(grid.spacing_m);
 }
 
-template std::string surroundings(const Scene<2>&, std::size_t, const Index<2>&);
-template std::string surroundings(const Scene<3>&, std::size_t, const Index<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, surroundings);
 
 }  // namespace slipwave

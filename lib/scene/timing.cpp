@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
 
@@ -62,7 +63,6 @@ std::vector<std::string> timing_warnings(const Scene<D>& scene) {
           "); the farthest needs at least " + shown(unreached.needed_s - scene.recording.before_s, 3) + " s"};
 }
 
-template std::vector<std::string> timing_warnings(const Scene<2>&);
-template std::vector<std::string> timing_warnings(const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, timing_warnings);
 
 }  // namespace slipwave

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/history.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "io/output_file.hpp"
 #include "planning/plan.hpp"
@@ -252,11 +253,7 @@ Report measured_report(const Scene<D>& scene, const ShootingOptions& options, co
   return report;
 }
 
-template void shoot_measured(const Scene<2>&, const ShootingOptions&, const OutputOptions&, const Provenance&,
-                             const Messages&);
-template void shoot_measured(const Scene<3>&, const ShootingOptions&, const OutputOptions&, const Provenance&,
-                             const Messages&);
-template Report measured_report(const Scene<2>&, const ShootingOptions&, const Messages&);
-template Report measured_report(const Scene<3>&, const ShootingOptions&, const Messages&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, shoot_measured);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, measured_report);
 
 }  // namespace slipwave

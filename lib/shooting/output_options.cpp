@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "parallel/threads.hpp"
@@ -151,13 +152,8 @@ std::size_t shots_at_once(const OutputOptions& options, const Scene<D>& scene) {
       std::clamp<std::int64_t>(std::min<std::int64_t>(fit, parallel_threads()), 1, std::int64_t(shots)));
 }
 
-template void OutputOptions::check<2>(std::size_t) const;
-template void OutputOptions::check<3>(std::size_t) const;
-template void OutputOptions::check_scene(const Scene<2>&,
-                                         const std::function<void(const std::string&)>&) const;
-template void OutputOptions::check_scene(const Scene<3>&,
-                                         const std::function<void(const std::string&)>&) const;
-template std::size_t shots_at_once(const OutputOptions&, const Scene<2>&);
-template std::size_t shots_at_once(const OutputOptions&, const Scene<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, OutputOptions::check);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, OutputOptions::check_scene);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, shots_at_once);
 
 }  // namespace slipwave

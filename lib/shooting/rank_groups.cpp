@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/archive.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 namespace {
@@ -109,9 +110,6 @@ std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<D>& scene, std::s
   return outcomes;
 }
 
-template std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<2>&, std::span<const std::size_t>,
-                                                            const Progress&, const SnapshotSink<2>&) const;
-template std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<3>&, std::span<const std::size_t>,
-                                                            const Progress&, const SnapshotSink<3>&) const;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, RankGroups::shoot);
 
 }  // namespace slipwave

@@ -9,6 +9,7 @@
 
 #include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
@@ -363,15 +364,9 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
   return warnings;
 }
 
-template Scene<2> SceneOptions::without_model() const;
-template Scene<3> SceneOptions::without_model() const;
-template void SceneOptions::place_again(Scene<2>&) const;
-template void SceneOptions::place_again(Scene<3>&) const;
-template std::vector<std::string> SceneOptions::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&,
-                                                               Ranks*) const;
-template std::vector<std::string> SceneOptions::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&,
-                                                               Ranks*) const;
-template std::vector<std::string> SceneOptions::read_model_into(Scene<2>&, const NetcdfFile&) const;
-template std::vector<std::string> SceneOptions::read_model_into(Scene<3>&, const NetcdfFile&) const;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, SceneOptions::without_model);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, SceneOptions::place_again);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, SceneOptions::read_part_into);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, SceneOptions::read_model_into);
 
 }  // namespace slipwave

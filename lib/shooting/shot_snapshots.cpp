@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/shot_snapshots.hpp"
 
+#include "base/instantiate.hpp"
 #include "output/derivatives.hpp"
 
 namespace slipwave {
@@ -86,9 +87,7 @@ RunState::Mark ShotSnapshots<D>::mark() {
   return [this] { return log_->synchronized(); };
 }
 
-template SnapshotSink<2> sink_of_helper(const std::vector<std::string>&);
-template SnapshotSink<3> sink_of_helper(const std::vector<std::string>&);
-template class ShotSnapshots<2>;
-template class ShotSnapshots<3>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, sink_of_helper);
+SLIPWAVE_INSTANTIATE_D(TYPE, class ShotSnapshots);
 
 }  // namespace slipwave

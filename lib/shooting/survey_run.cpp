@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/history.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
 #include "parallel/threads.hpp"
@@ -210,7 +211,6 @@ std::vector<std::string> SurveyRun<D>::save_unstable(const Unstable& error) {
   return saved;
 }
 
-template class SurveyRun<2>;
-template class SurveyRun<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class SurveyRun);
 
 }  // namespace slipwave

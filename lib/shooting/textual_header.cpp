@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave {
 
@@ -86,7 +87,6 @@ segy::Heading textual_header_of(const Scene<D>& scene, const std::string& histor
   return {std::move(entries), history};
 }
 
-template segy::Heading textual_header_of(const Scene<2>&, const std::string&, const Provenance&);
-template segy::Heading textual_header_of(const Scene<3>&, const std::string&, const Provenance&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, textual_header_of);
 
 }  // namespace slipwave

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "scene/bands.hpp"
 #include "scene/empty_gather.hpp"
@@ -193,9 +194,6 @@ std::int64_t BandedShot<D, Real>::building_bytes() const {
   return bytes;
 }
 
-template class BandedShot<2, float>;
-template class BandedShot<2, double>;
-template class BandedShot<3, float>;
-template class BandedShot<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class BandedShot);
 
 }  // namespace slipwave::solver

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/attenuation.hpp"
 #include "solver/effect/incident_pml.hpp"
@@ -126,9 +127,6 @@ std::unique_ptr<Executor> StepBuilder<D, Real>::executor(Sweeps<D, Real>& sweeps
   return tiled;
 }
 
-template struct StepBuilder<2, float>;
-template struct StepBuilder<2, double>;
-template struct StepBuilder<3, float>;
-template struct StepBuilder<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, struct StepBuilder);
 
 }  // namespace slipwave::solver

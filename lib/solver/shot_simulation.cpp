@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/memory.hpp"
 #include "grid/locate.hpp"
 #include "model/attenuation.hpp"
@@ -294,11 +295,7 @@ std::int64_t ShotSimulation<D, Real>::building_bytes() const {
   return std::max<std::int64_t>(0, building - state_.fields.size() * std::int64_t(sizeof(Real)));
 }
 
-template InAllBands in_all_bands(const std::vector<Scene<2>>&, std::size_t);
-template InAllBands in_all_bands(const std::vector<Scene<3>>&, std::size_t);
-template class ShotSimulation<2, float>;
-template class ShotSimulation<2, double>;
-template class ShotSimulation<3, float>;
-template class ShotSimulation<3, double>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, in_all_bands);
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class ShotSimulation);
 
 }  // namespace slipwave::solver

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
 #include "scene/surroundings.hpp"
 #include "solver/banded_shot.hpp"
 #include "solver/shot_simulation.hpp"
@@ -135,9 +136,6 @@ Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress,
              : shoot_as<D, float>(scene, shot, progress, snapshots, pauses, report, ranks);
 }
 
-template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*,
-                      ShotReport*, Ranks*);
-template Gather shoot(const Scene<3>&, std::size_t, const Progress&, const SnapshotSink<3>&, Pauses*,
-                      ShotReport*, Ranks*);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, shoot);
 
 }  // namespace slipwave

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "gather/trace.hpp"
 #include "grid/grid.hpp"
@@ -101,9 +102,6 @@ std::vector<std::string> write_section(OutputFile& out, const Field<D>& section,
   return writer.finish();
 }
 
-template std::vector<std::string> write_section(OutputFile&, const Field<2>&, const SectionFacts&,
-                                                const segy::FileFormat&);
-template std::vector<std::string> write_section(OutputFile&, const Field<3>&, const SectionFacts&,
-                                                const segy::FileFormat&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, write_section);
 
 }  // namespace slipwave

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "model/bulk_part.hpp"
 #include "model/tilted_mean.hpp"
 #include "parallel/threads.hpp"
@@ -200,9 +201,6 @@ std::string RelaxingStress<D, Real>::name() const {
   return "attenuation, " + std::to_string(mechanisms_) + " mechanisms";
 }
 
-template class RelaxingStress<2, float>;
-template class RelaxingStress<2, double>;
-template class RelaxingStress<3, float>;
-template class RelaxingStress<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class RelaxingStress);
 
 }  // namespace slipwave::solver

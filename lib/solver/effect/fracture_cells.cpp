@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
 #include "model/cluster_edge.hpp"
 
 namespace slipwave::solver {
@@ -57,7 +58,6 @@ void FractureCells<D>::each(const Layout<D>& layout, const Domain<D>& domain, co
       }
 }
 
-template class FractureCells<2>;
-template class FractureCells<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class FractureCells);
 
 }  // namespace slipwave::solver

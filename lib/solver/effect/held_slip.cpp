@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "model/cluster_edge.hpp"
 
 namespace slipwave::solver {
@@ -56,9 +57,6 @@ void HeldSlip<D, Real>::from_part(Real* stress, std::int64_t pitch, std::size_t 
   }
 }
 
-template class HeldSlip<2, float>;
-template class HeldSlip<2, double>;
-template class HeldSlip<3, float>;
-template class HeldSlip<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class HeldSlip);
 
 }  // namespace slipwave::solver

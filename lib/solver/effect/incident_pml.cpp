@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -121,11 +123,7 @@ void IncidentPml<D, Real>::filter_piece(const SweptCells<D, Real>& swept, int si
   }
 }
 
-template PmlSettings pml_of_plane_wave(const Scene<2>&);
-template PmlSettings pml_of_plane_wave(const Scene<3>&);
-template class IncidentPml<2, float>;
-template class IncidentPml<2, double>;
-template class IncidentPml<3, float>;
-template class IncidentPml<3, double>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, pml_of_plane_wave);
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class IncidentPml);
 
 }  // namespace slipwave::solver

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/coefficients.hpp"
 #include "model/tilted_mean.hpp"
@@ -362,15 +363,7 @@ std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene,
   return std::make_unique<UniformWave<D, Real>>(form, domain, way);
 }
 
-template class SweepClocks<2>;
-template class SweepClocks<3>;
-template std::unique_ptr<IncidentWave<2, float>> make_incident_wave(const Scene<2>&, const Source<2>&,
-                                                                    const Domain<2>&, double);
-template std::unique_ptr<IncidentWave<2, double>> make_incident_wave(const Scene<2>&, const Source<2>&,
-                                                                     const Domain<2>&, double);
-template std::unique_ptr<IncidentWave<3, float>> make_incident_wave(const Scene<3>&, const Source<3>&,
-                                                                    const Domain<3>&, double);
-template std::unique_ptr<IncidentWave<3, double>> make_incident_wave(const Scene<3>&, const Source<3>&,
-                                                                     const Domain<3>&, double);
+SLIPWAVE_INSTANTIATE_D(TYPE, class SweepClocks);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, make_incident_wave);
 
 }  // namespace slipwave::solver

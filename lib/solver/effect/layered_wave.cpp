@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/instantiate.hpp"
 #include "model/plane_motion.hpp"
 
 namespace slipwave::solver {
@@ -217,8 +218,7 @@ TimeSeries LayeredSeries<D>::sum_of(const std::array<std::vector<Complex>, 5>& s
   return impl_->series->sum_of(spectra, factors, earlier_s);
 }
 
-template class LayeredSeries<2>;
-template class LayeredSeries<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class LayeredSeries);
 
 template <int D, class Real>
 std::unique_ptr<IncidentWave<D, Real>> make_layered_wave(const Scene<D>& scene, const Source<D>& source,
@@ -231,17 +231,6 @@ std::unique_ptr<IncidentWave<D, Real>> make_layered_wave(const Scene<D>& scene, 
   return layered;
 }
 
-template std::unique_ptr<IncidentWave<2, float>> make_layered_wave(const Scene<2>&, const Source<2>&,
-                                                                   const PlaneForm<2>&, const Domain<2>&,
-                                                                   const PlaneWaveWay<2>&);
-template std::unique_ptr<IncidentWave<2, double>> make_layered_wave(const Scene<2>&, const Source<2>&,
-                                                                    const PlaneForm<2>&, const Domain<2>&,
-                                                                    const PlaneWaveWay<2>&);
-template std::unique_ptr<IncidentWave<3, float>> make_layered_wave(const Scene<3>&, const Source<3>&,
-                                                                   const PlaneForm<3>&, const Domain<3>&,
-                                                                   const PlaneWaveWay<3>&);
-template std::unique_ptr<IncidentWave<3, double>> make_layered_wave(const Scene<3>&, const Source<3>&,
-                                                                    const PlaneForm<3>&, const Domain<3>&,
-                                                                    const PlaneWaveWay<3>&);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, make_layered_wave);
 
 }  // namespace slipwave::solver

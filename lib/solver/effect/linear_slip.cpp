@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "base/small_matrix.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
@@ -443,11 +444,7 @@ double LinearSlip<D, Real>::stored_energy() const {
   return energy;
 }
 
-template std::vector<std::int64_t> soft_cells(const Domain<2>&, const Model<2>&);
-template std::vector<std::int64_t> soft_cells(const Domain<3>&, const Model<3>&);
-template class LinearSlip<2, float>;
-template class LinearSlip<2, double>;
-template class LinearSlip<3, float>;
-template class LinearSlip<3, double>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, soft_cells);
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class LinearSlip);
 
 }  // namespace slipwave::solver

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/plane_motion.hpp"
 
@@ -193,12 +194,8 @@ bool PlaneForm<D>::cells(double x, double spacing, std::int64_t first, std::int6
   return true;
 }
 
-template void add_up<2>(const MotionAlongX&, const CellsAlongX<float>&, std::int64_t, float*, std::int64_t);
-template void add_up<2>(const MotionAlongX&, const CellsAlongX<double>&, std::int64_t, double*, std::int64_t);
-template void add_up<3>(const MotionAlongX&, const CellsAlongX<float>&, std::int64_t, float*, std::int64_t);
-template void add_up<3>(const MotionAlongX&, const CellsAlongX<double>&, std::int64_t, double*, std::int64_t);
-template void TimeSeries::values(double, double, std::int64_t, std::int64_t, double, float*) const;
-template void TimeSeries::values(double, double, std::int64_t, std::int64_t, double, double*) const;
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, add_up);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, TimeSeries::values);
 template bool PlaneForm<2>::cells(double, double, std::int64_t, std::int64_t, double, double, double, float*,
                                   std::int64_t) const;
 template bool PlaneForm<2>::cells(double, double, std::int64_t, std::int64_t, double, double, double, double*,
@@ -207,11 +204,8 @@ template bool PlaneForm<3>::cells(double, double, std::int64_t, std::int64_t, do
                                   std::int64_t) const;
 template bool PlaneForm<3>::cells(double, double, std::int64_t, std::int64_t, double, double, double, double*,
                                   std::int64_t) const;
-template double top_of_row(const Domain<2>&, std::int64_t);
-template double top_of_row(const Domain<3>&, std::int64_t);
-template std::vector<double> depths_of_rows(const Domain<2>&);
-template std::vector<double> depths_of_rows(const Domain<3>&);
-template class PlaneForm<2>;
-template class PlaneForm<3>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, top_of_row);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, depths_of_rows);
+SLIPWAVE_INSTANTIATE_D(TYPE, class PlaneForm);
 
 }  // namespace slipwave::solver

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "base/instantiate.hpp"
 #include "base/memory.hpp"
 #include "model/anisotropy.hpp"
 #include "scene/splitting.hpp"
@@ -363,9 +364,6 @@ std::int64_t Pml<D, Real>::memory_bytes() const {
   return values * std::int64_t(sizeof(Real));
 }
 
-template class Pml<2, float>;
-template class Pml<2, double>;
-template class Pml<3, float>;
-template class Pml<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class Pml);
 
 }  // namespace slipwave::solver

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "acquisition/interpolation.hpp"
+#include "base/instantiate.hpp"
 
 namespace slipwave::solver {
 
@@ -207,9 +208,6 @@ void PointSource<D, Real>::find_rows() {
   for (const auto& value : values_) writes_ |= 1U << (value.place / state_.layout.row_pitch());
 }
 
-template class PointSource<2, float>;
-template class PointSource<2, double>;
-template class PointSource<3, float>;
-template class PointSource<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class PointSource);
 
 }  // namespace slipwave::solver

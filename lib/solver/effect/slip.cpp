@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "scene/subdomains.hpp"
 
 namespace slipwave::solver {
@@ -261,9 +262,6 @@ std::int64_t Slip<D, Real>::memory_bytes() const {
   return bytes;
 }
 
-template class Slip<2, float>;
-template class Slip<2, double>;
-template class Slip<3, float>;
-template class Slip<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class Slip);
 
 }  // namespace slipwave::solver

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
 #include "solver/effect/slip_planes.hpp"
@@ -408,9 +409,6 @@ std::int64_t SlipGroup<D, Real>::memory_bytes() const {
          places_.memory_bytes() + (cut_ ? cut_->memory_bytes() : 0);
 }
 
-template class SlipGroup<2, float>;
-template class SlipGroup<2, double>;
-template class SlipGroup<3, float>;
-template class SlipGroup<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class SlipGroup);
 
 }  // namespace slipwave::solver

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "grid/tensor.hpp"
 #include "model/fracture.hpp"
 
@@ -68,13 +69,8 @@ CellCompliance compliance_of(const SlipSystem<D>& system, bool below_friction, d
   return slip::bounded(compliance_in(system.compliance, lambda, mu), lambda, mu, most);
 }
 
-template std::array<Point<2>, 1> tangents_of<2>(const Point<2>&);
-template std::array<Point<3>, 2> tangents_of<3>(const Point<3>&);
-template CellCompliance compliance_of<2>(const SlipSystem<2>&, bool, double, double);
-template CellCompliance compliance_of<3>(const SlipSystem<3>&, bool, double, double);
-template SlipPlanes<float> planes_of<2, float>(const std::vector<SlipSystem<2>>&, double);
-template SlipPlanes<double> planes_of<2, double>(const std::vector<SlipSystem<2>>&, double);
-template SlipPlanes<float> planes_of<3, float>(const std::vector<SlipSystem<3>>&, double);
-template SlipPlanes<double> planes_of<3, double>(const std::vector<SlipSystem<3>>&, double);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, tangents_of);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, compliance_of);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, planes_of);
 
 }  // namespace slipwave::solver

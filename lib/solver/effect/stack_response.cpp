@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/band_system.hpp"
+#include "base/instantiate.hpp"
 #include "model/space_motion.hpp"
 
 namespace slipwave::solver {
@@ -139,7 +140,6 @@ std::vector<Complex> StackResponse<D>::solve(Complex omega) const {
   return amplitudes;
 }
 
-template class StackResponse<2>;
-template class StackResponse<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class StackResponse);
 
 }  // namespace slipwave::solver

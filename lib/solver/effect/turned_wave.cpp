@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "model/space_motion.hpp"
 #include "solver/effect/layered_wave.hpp"
 
@@ -399,11 +400,6 @@ std::unique_ptr<IncidentWave<3, Real>> make_turned_wave(const Scene<3>& scene, c
   return wave;
 }
 
-template std::unique_ptr<IncidentWave<3, float>> make_turned_wave(const Scene<3>&, const Source<3>&,
-                                                                  const PlaneForm<3>&, const Domain<3>&,
-                                                                  const PlaneWaveWay<3>&, double);
-template std::unique_ptr<IncidentWave<3, double>> make_turned_wave(const Scene<3>&, const Source<3>&,
-                                                                   const PlaneForm<3>&, const Domain<3>&,
-                                                                   const PlaneWaveWay<3>&, double);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, make_turned_wave);
 
 }  // namespace slipwave::solver

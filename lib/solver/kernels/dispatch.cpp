@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "base/instantiate.hpp"
 #include "solver/kernels/kernel_tables.hpp"
 
 namespace slipwave::solver {
@@ -89,21 +90,13 @@ const SeriesKernels<Real>& series_kernels() {
   return best_tables<Real>().series(Real());
 }
 
-template const SeriesKernels<float>& series_kernels<float>();
-template const SeriesKernels<double>& series_kernels<double>();
-template RelaxationKernel<float> relaxation_kernel<float>(int, Relaxing, int);
-template RelaxationKernel<double> relaxation_kernel<double>(int, Relaxing, int);
-template SlipKernels<float> slip_kernels<float>(const SlipCase&);
-template SlipKernels<double> slip_kernels<double>(const SlipCase&);
-template LinearSlipKernels<float> linear_slip_kernels<float>(const LinearSlipCase&);
-template LinearSlipKernels<double> linear_slip_kernels<double>(const LinearSlipCase&);
-template GapKernel<float> gap_kernel<float>(int);
-template GapKernel<double> gap_kernel<double>(int);
-template const Kernels<float>& kernels<float>(int, bool);
-template const Kernels<double>& kernels<double>(int, bool);
-template InterpolationKernel<float> interpolation_kernel<float>();
-template InterpolationKernel<double> interpolation_kernel<double>();
-template const PmlKernels<float>& pml_kernels<float>();
-template const PmlKernels<double>& pml_kernels<double>();
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, series_kernels);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, relaxation_kernel);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, slip_kernels);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, linear_slip_kernels);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, gap_kernel);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, kernels);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, interpolation_kernel);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, pml_kernels);
 
 }  // namespace slipwave::solver

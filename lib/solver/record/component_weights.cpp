@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/velocity_gradient.hpp"
 
 namespace slipwave::solver {
@@ -45,13 +46,7 @@ std::vector<ValueWeight> velocity_along(const Layout<D>& layout, const Domain<D>
   return all;
 }
 
-template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                    Component);
-template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                    Component);
-template std::vector<ValueWeight> velocity_along(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                 const Point<2>&);
-template std::vector<ValueWeight> velocity_along(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                 const Point<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, component_weights);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, velocity_along);
 
 }  // namespace slipwave::solver

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "scene/empty_gather.hpp"
 #include "scene/gauges.hpp"
 #include "solver/record/component_weights.hpp"
@@ -442,9 +443,6 @@ void Recorder<D, Real>::find_box(const Layout<D>& layout, std::int64_t rows_befo
   if (!read.rows.empty()) box_ = read;
 }
 
-template class Recorder<2, float>;
-template class Recorder<2, double>;
-template class Recorder<3, float>;
-template class Recorder<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class Recorder);
 
 }  // namespace slipwave::solver

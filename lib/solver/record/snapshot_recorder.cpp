@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "parallel/threads.hpp"
 #include "solver/sweep/point_weights.hpp"
 
@@ -61,9 +62,6 @@ Field<D> SnapshotRecorder<D, Real>::field(Component component) const {
   return field;
 }
 
-template class SnapshotRecorder<2, float>;
-template class SnapshotRecorder<2, double>;
-template class SnapshotRecorder<3, float>;
-template class SnapshotRecorder<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class SnapshotRecorder);
 
 }  // namespace slipwave::solver

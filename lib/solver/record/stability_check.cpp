@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -102,9 +103,6 @@ Divergence<D> StabilityCheck<D, Real>::first_of(const std::vector<char>& bad_lin
   return first;
 }
 
-template class StabilityCheck<2, float>;
-template class StabilityCheck<2, double>;
-template class StabilityCheck<3, float>;
-template class StabilityCheck<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class StabilityCheck);
 
 }  // namespace slipwave::solver

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -46,9 +48,6 @@ void ActiveCells<D, Real>::serialize(Archive& archive) {
   }
 }
 
-template class ActiveCells<2, float>;
-template class ActiveCells<2, double>;
-template class ActiveCells<3, float>;
-template class ActiveCells<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class ActiveCells);
 
 }  // namespace slipwave::solver

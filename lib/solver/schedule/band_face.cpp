@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -166,9 +168,6 @@ void BandFace<D, Real>::give_states() {
   }
 }
 
-template class BandFace<2, float>;
-template class BandFace<2, double>;
-template class BandFace<3, float>;
-template class BandFace<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class BandFace);
 
 }  // namespace slipwave::solver

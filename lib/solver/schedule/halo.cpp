@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 
 template <int D, class Real>
@@ -118,9 +120,6 @@ std::int64_t Halo<D, Real>::memory_bytes() const {
   return std::int64_t(values * sizeof(Real));
 }
 
-template class Halo<2, float>;
-template class Halo<2, double>;
-template class Halo<3, float>;
-template class Halo<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class Halo);
 
 }  // namespace slipwave::solver

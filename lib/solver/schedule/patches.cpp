@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -46,7 +48,6 @@ Patches<D>::Patches(const Layout<D>& layout, const Domain<D>& domain, const Mode
   starts_.push_back(patches_.size());
 }
 
-template class Patches<2>;
-template class Patches<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class Patches);
 
 }  // namespace slipwave::solver

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
 #include "solver/schedule/active_cells.hpp"
 
 namespace slipwave::solver {
@@ -111,9 +112,6 @@ void PlainExecutor<D, Real>::serialize(Archive& archive) {
   archive.fixed(active);
 }
 
-template class PlainExecutor<2, float>;
-template class PlainExecutor<2, double>;
-template class PlainExecutor<3, float>;
-template class PlainExecutor<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class PlainExecutor);
 
 }  // namespace slipwave::solver

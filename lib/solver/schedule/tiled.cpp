@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/instantiate.hpp"
 #include "parallel/threads.hpp"
 #include "scene/subdomains.hpp"
 
@@ -770,9 +771,6 @@ void TiledExecutor<D, Real>::read_beside_patches(const Stage& stage, const Index
   read(columns.last);
 }
 
-template class TiledExecutor<2, float>;
-template class TiledExecutor<2, double>;
-template class TiledExecutor<3, float>;
-template class TiledExecutor<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class TiledExecutor);
 
 }  // namespace slipwave::solver

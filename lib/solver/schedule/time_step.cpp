@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "grid/grid.hpp"
 
 namespace slipwave::solver {
@@ -110,9 +111,6 @@ Box TimeStep<D, Real>::needed(const StepTime& time, const Box& growth) const {
   return {spread(read.rows, growth.rows), spread(read.columns, growth.columns)};
 }
 
-template class TimeStep<2, float>;
-template class TimeStep<2, double>;
-template class TimeStep<3, float>;
-template class TimeStep<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class TimeStep);
 
 }  // namespace slipwave::solver

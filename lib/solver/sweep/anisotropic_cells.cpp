@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "solver/kernels/reconstruction.hpp"
 #include "solver/sweep/matrix_faces.hpp"
 
@@ -324,9 +325,6 @@ void AnisotropicCells<D, Real>::add_stress(int axis, std::int64_t line, const In
   });
 }
 
-template class AnisotropicCells<2, float>;
-template class AnisotropicCells<2, double>;
-template class AnisotropicCells<3, float>;
-template class AnisotropicCells<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class AnisotropicCells);
 
 }  // namespace slipwave::solver

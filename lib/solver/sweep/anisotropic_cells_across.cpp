@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "parallel/threads.hpp"
 #include "solver/sweep/matrix_faces.hpp"
 
@@ -298,9 +299,6 @@ void AnisotropicCellsAcross<D, Real>::add_stress(std::int64_t line, const IndexR
   list_.each_run(line, columns, add, true);
 }
 
-template class AnisotropicCellsAcross<2, float>;
-template class AnisotropicCellsAcross<2, double>;
-template class AnisotropicCellsAcross<3, float>;
-template class AnisotropicCellsAcross<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class AnisotropicCellsAcross);
 
 }  // namespace slipwave::solver

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 
 namespace slipwave::solver {
@@ -152,9 +153,7 @@ int image_sign(EdgeLaw law, int axis, int field_row) {
   return 1;
 }
 
-template class BandColumns<float>;
-template class BandColumns<double>;
-template int image_sign<2>(EdgeLaw, int, int);
-template int image_sign<3>(EdgeLaw, int, int);
+SLIPWAVE_INSTANTIATE_REAL(TYPE, class BandColumns);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, image_sign);
 
 }  // namespace slipwave::solver

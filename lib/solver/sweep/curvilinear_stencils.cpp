@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "base/instantiate.hpp"
 #include "solver/kernels/bent_formulas.hpp"
 #include "solver/sweep/motion_along.hpp"
 #include "solver/sweep/stencils.hpp"
@@ -250,9 +251,6 @@ void CurvilinearStencils<D, Real>::correct(int order, std::int64_t line, const I
   }
 }
 
-template class CurvilinearStencils<2, float>;
-template class CurvilinearStencils<2, double>;
-template class CurvilinearStencils<3, float>;
-template class CurvilinearStencils<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class CurvilinearStencils);
 
 }  // namespace slipwave::solver

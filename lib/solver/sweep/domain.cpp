@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "grid/tensor.hpp"
 #include "model/coefficients.hpp"
 #include "parallel/threads.hpp"
@@ -653,27 +654,13 @@ double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium
   return total;
 }
 
-template Elasticity<2> elasticity_of_loops(const Domain<2>&, const Index<2>&);
-template Elasticity<3> elasticity_of_loops(const Domain<3>&, const Index<3>&);
-template Elasticity<2> elasticity_at(const Domain<2>&, const Index<2>&);
-template Elasticity<3> elasticity_at(const Domain<3>&, const Index<3>&);
-template class Domain<2>;
-template double corner_depth(const Domain<2>&, Index<2>);
-template double corner_depth(const Domain<3>&, Index<3>);
-template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&, int);
-template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
-template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
-template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
-template double energy_of_cell(const State<2, double>&, const Domain<2>&, const Medium<2>&, Index<2>);
-template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
-template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
-template class Domain<3>;
-template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&, int);
-template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
-template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
-template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);
-template double energy_of_cell(const State<3, double>&, const Domain<3>&, const Medium<3>&, Index<3>);
-template double energy(const State<3, float>&, const Domain<3>&, const Medium<3>&);
-template double energy(const State<3, double>&, const Domain<3>&, const Medium<3>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_of_loops);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_at);
+SLIPWAVE_INSTANTIATE_D(TYPE, class Domain);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, corner_depth);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, make_domain);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, fill_material);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, energy_of_cell);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, energy);
 
 }  // namespace slipwave::solver

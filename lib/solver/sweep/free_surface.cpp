@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/motion_along.hpp"
 #include "solver/sweep/row_waves.hpp"
 
@@ -486,17 +487,9 @@ void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::i
   }
 }
 
-template std::vector<SurfaceTerm<2>> surface_slope<2>(const Domain<2>&, const Index<2>&, int, int, int);
-template std::vector<SurfaceTerm<3>> surface_slope<3>(const Domain<3>&, const Index<3>&, int, int, int);
-template bool add_term<2>(const Domain<2>&, const Index<2>&, const Index<2>&, int, double,
-                          std::vector<SurfaceTerm<2>>&);
-template bool add_term<3>(const Domain<3>&, const Index<3>&, const Index<3>&, int, double,
-                          std::vector<SurfaceTerm<3>>&);
-template std::pair<RowVector<2, double>, double> end_of_rows<2>(const Domain<2>&, const Index<2>&, int);
-template std::pair<RowVector<3, double>, double> end_of_rows<3>(const Domain<3>&, const Index<3>&, int);
-template class FreeSurface<2, float>;
-template class FreeSurface<2, double>;
-template class FreeSurface<3, float>;
-template class FreeSurface<3, double>;
+SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_slope);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, add_term);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, end_of_rows);
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class FreeSurface);
 
 }  // namespace slipwave::solver

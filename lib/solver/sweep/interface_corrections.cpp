@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "scene/edges.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/motion_along.hpp"
@@ -329,9 +330,6 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   }
 }
 
-template class InterfaceCorrections<2, float>;
-template class InterfaceCorrections<2, double>;
-template class InterfaceCorrections<3, float>;
-template class InterfaceCorrections<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class InterfaceCorrections);
 
 }  // namespace slipwave::solver

@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/stencils.hpp"
 
 namespace slipwave::solver {
@@ -254,15 +255,9 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
   }
 }
 
-template void extended_pair(const InterfaceStencil&, int, const PairOfLine<float>&, MotionAt<float>*);
-template void extended_pair(const InterfaceStencil&, int, const PairOfLine<double>&, MotionAt<double>*);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, extended_pair);
 template InterfaceStencils::InterfaceStencils(const StencilSearch<2>&);
 template InterfaceStencils::InterfaceStencils(const StencilSearch<3>&);
-template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, const PairOfLine<float>&,
-                                              const MaterialRows<float>&, float*, float*,
-                                              const BentAlong<float>*) const;
-template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, const PairOfLine<double>&,
-                                              const MaterialRows<double>&, double*, double*,
-                                              const BentAlong<double>*) const;
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, InterfaceStencils::correct_line);
 
 }  // namespace slipwave::solver

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/instantiate.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -193,9 +194,6 @@ Real Metric<D, Real>::volume(const Index<D>& at) const {
   return half[0] + half[1];
 }
 
-template class Metric<2, float>;
-template class Metric<2, double>;
-template class Metric<3, float>;
-template class Metric<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class Metric);
 
 }  // namespace slipwave::solver

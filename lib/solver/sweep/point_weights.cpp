@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/motion_along.hpp"
@@ -371,23 +372,12 @@ int row_of(const WaveField& field) {
   return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
 }
 
-template Index<2> cell_at(const Domain<2>&, const Point<2>&, Side);
-template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int, Side);
-template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int,
-                                                 Side);
-template ExtendedCells<2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
-template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                        int, Side);
-template bool owns_point(const Domain<2>&, const Point<2>&, Side);
-template bool owns_point(const Domain<3>&, const Point<3>&, Side);
-template int row_of<2>(const WaveField&);
-template Index<3> cell_at(const Domain<3>&, const Point<3>&, Side);
-template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int, Side);
-template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int,
-                                                 Side);
-template ExtendedCells<3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
-template std::vector<ValueWeight> smooth_source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                        int, Side);
-template int row_of<3>(const WaveField&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, cell_at);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, row_weights);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, source_weights);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, extended_cells);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, smooth_source_weights);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, owns_point);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, row_of);
 
 }  // namespace slipwave::solver

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -47,9 +49,6 @@ RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, double j, const P
   return waves;
 }
 
-template RowWaves<2> waves_across_rows(const Elasticity<2>&, double, const Point<2>&,
-                                       const std::array<Point<2>, 2>&);
-template RowWaves<3> waves_across_rows(const Elasticity<3>&, double, const Point<3>&,
-                                       const std::array<Point<3>, 2>&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, waves_across_rows);
 
 }  // namespace slipwave::solver

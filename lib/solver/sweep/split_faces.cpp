@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
@@ -458,9 +459,6 @@ double SplitFaces<D, Real>::stored_energy() const {
   return energy * std::pow(spacing_m_, D - 1);
 }
 
-template class SplitFaces<2, float>;
-template class SplitFaces<2, double>;
-template class SplitFaces<3, float>;
-template class SplitFaces<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class SplitFaces);
 
 }  // namespace slipwave::solver

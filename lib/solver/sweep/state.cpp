@@ -6,6 +6,7 @@
 #include <cstring>
 #include <span>
 
+#include "base/instantiate.hpp"
 #include "base/memory.hpp"
 #include "parallel/threads.hpp"
 
@@ -84,11 +85,7 @@ State<D, Real> make_state(const Index<D>& shape, MaterialKind material) {
   return state;
 }
 
-template class Layout<2>;
-template class Layout<3>;
-template State<2, float> make_state<2, float>(const Index<2>&, MaterialKind);
-template State<2, double> make_state<2, double>(const Index<2>&, MaterialKind);
-template State<3, float> make_state<3, float>(const Index<3>&, MaterialKind);
-template State<3, double> make_state<3, double>(const Index<3>&, MaterialKind);
+SLIPWAVE_INSTANTIATE_D(TYPE, class Layout);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, make_state);
 
 }  // namespace slipwave::solver

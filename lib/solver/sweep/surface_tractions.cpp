@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/motion_along.hpp"
 
@@ -310,9 +311,6 @@ void SurfaceTractions<D, Real>::update(const Real* all_fields, const Real* mater
   }
 }
 
-template class SurfaceTractions<2, float>;
-template class SurfaceTractions<2, double>;
-template class SurfaceTractions<3, float>;
-template class SurfaceTractions<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class SurfaceTractions);
 
 }  // namespace slipwave::solver

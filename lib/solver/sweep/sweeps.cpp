@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/instantiate.hpp"
 #include "parallel/threads.hpp"
 #include "solver/sweep/tilted_contrasts.hpp"
 
@@ -1231,9 +1232,6 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
   }
 }
 
-template class Sweeps<2, float>;
-template class Sweeps<2, double>;
-template class Sweeps<3, float>;
-template class Sweeps<3, double>;
+SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class Sweeps);
 
 }  // namespace slipwave::solver

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/instantiate.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -99,7 +101,6 @@ TiltedContrasts<D> tilted_contrasts(const Domain<D>& domain, int axis, int reach
   return contrasts;
 }
 
-template TiltedContrasts<2> tilted_contrasts(const Domain<2>&, int, int);
-template TiltedContrasts<3> tilted_contrasts(const Domain<3>&, int, int);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, tilted_contrasts);
 
 }  // namespace slipwave::solver

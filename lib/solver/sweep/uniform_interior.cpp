@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/sweep/uniform_interior.hpp"
 
+#include "base/instantiate.hpp"
 #include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
@@ -65,9 +66,6 @@ std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D,
   return all;
 }
 
-template std::array<UniformInterior, 2> find_uniform_interior(const State<2, float>&);
-template std::array<UniformInterior, 2> find_uniform_interior(const State<2, double>&);
-template std::array<UniformInterior, 3> find_uniform_interior(const State<3, float>&);
-template std::array<UniformInterior, 3> find_uniform_interior(const State<3, double>&);
+SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, find_uniform_interior);
 
 }  // namespace slipwave::solver

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
+#include "base/instantiate.hpp"
 #include "model/anisotropy.hpp"
 
 namespace slipwave::solver {
@@ -236,7 +237,6 @@ std::vector<ValueWeight> VelocityGradient<D>::weights(const Layout<D>& layout, i
   return sum.values(layout);
 }
 
-template class VelocityGradient<2>;
-template class VelocityGradient<3>;
+SLIPWAVE_INSTANTIATE_D(TYPE, class VelocityGradient);
 
 }  // namespace slipwave::solver
