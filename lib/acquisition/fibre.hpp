@@ -43,11 +43,4 @@ template <int D>
 std::vector<GaugePoint<D>> gauge_points(const Fibre& fibre, std::span<const Point<D>> receivers_m,
                                         std::size_t number);
 
-extern template Fibre parse_fibre<2>(const std::string&);
-extern template Fibre parse_fibre<3>(const std::string&);
-extern template Point<2> direction_of<2>(const Fibre&);
-extern template Point<3> direction_of<3>(const Fibre&);
-extern template std::vector<GaugePoint<2>> gauge_points(const Fibre&, std::span<const Point<2>>, std::size_t);
-extern template std::vector<GaugePoint<3>> gauge_points(const Fibre&, std::span<const Point<3>>, std::size_t);
-
 }  // namespace slipwave

@@ -111,14 +111,4 @@ TimeWeights time_weights(double position, std::int64_t low, std::int64_t high);
 TimeWeights time_slopes(double position, std::int64_t low, std::int64_t high);
 TimeWeights time_integrals(double from, double to, std::int64_t low, std::int64_t high);
 
-extern template std::vector<PointWeight<2>> point_weights<2>(const Grid<2>&, const Point<2>&,
-                                                             const std::array<AxisCells, 2>&, int);
-extern template std::vector<PointWeight<3>> point_weights<3>(const Grid<3>&, const Point<3>&,
-                                                             const std::array<AxisCells, 3>&, int);
-
-extern template std::vector<PointWeight<2>> spread_point_weights<2>(const Grid<2>&, const Point<2>&,
-                                                                    const std::array<AxisCells, 2>&);
-extern template std::vector<PointWeight<3>> spread_point_weights<3>(const Grid<3>&, const Point<3>&,
-                                                                    const std::array<AxisCells, 3>&);
-
 }  // namespace slipwave

@@ -38,7 +38,4 @@ struct Place {
 template <int D>
 std::vector<Place> parse_places(const std::string& text, bool of_receivers);
 
-extern template std::vector<Place> parse_places<2>(const std::string&, bool);
-extern template std::vector<Place> parse_places<3>(const std::string&, bool);
-
 }  // namespace slipwave

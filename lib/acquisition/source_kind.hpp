@@ -31,7 +31,4 @@ std::string source_kind_help();
 /// "explosion, moment: N m/s per m; ...; in 3-D ...": units of the amplitude, for the help of an option.
 std::string amplitude_help();
 
-extern template std::span<const SourceKind<2>> source_kinds<2>();
-extern template std::span<const SourceKind<3>> source_kinds<3>();
-
 }  // namespace slipwave

@@ -167,23 +167,7 @@ void check_inside(const std::string& what, const Point<D>& point_m, const Grid<D
 template <int D>
 void check(const Survey<D>& survey, const Grid<D>& grid);
 
-extern template std::optional<PointInjection<2>> point_injection<2>(const Source<2>&);
-extern template std::optional<PointInjection<3>> point_injection<3>(const Source<3>&);
-extern template Mechanism<2> parse_mechanism<2>(const std::string&);
-extern template Mechanism<3> parse_mechanism<3>(const std::string&);
-extern template const char* name_of<2>(const Mechanism<2>&);
-extern template const char* name_of<3>(const Mechanism<3>&);
-extern template bool is_inside<2>(const Point<2>&, const Grid<2>&);
-extern template bool is_inside<3>(const Point<3>&, const Grid<3>&);
-extern template void check_inside<2>(const std::string&, const Point<2>&, const Grid<2>&, const std::string&);
-extern template void check_inside<3>(const std::string&, const Point<3>&, const Grid<3>&, const std::string&);
 extern template struct Survey<2>;
 extern template struct Survey<3>;
-extern template void place(Survey<2>&, Ground<2>);
-extern template void place(Survey<3>&, Ground<3>);
-extern template bool needs_ground(const Survey<2>&);
-extern template bool needs_ground(const Survey<3>&);
-extern template void check<2>(const Survey<2>&, const Grid<2>&);
-extern template void check<3>(const Survey<3>&, const Grid<3>&);
 
 }  // namespace slipwave

@@ -30,7 +30,4 @@ std::optional<std::string> difference_of(const Identity& found, const Identity& 
 
 void serialize(Archive& archive, Identity& identity);
 
-extern template Identity identity_of(const Scene<2>&);
-extern template Identity identity_of(const Scene<3>&);
-
 }  // namespace slipwave

@@ -112,9 +112,4 @@ std::string place_of(const Grid<D>& grid, std::int64_t flat_index);
 template <int D>
 std::string shown(const Grid<D>& grid);
 
-extern template std::string place_of<2>(const Grid<2>&, std::int64_t);
-extern template std::string place_of<3>(const Grid<3>&, std::int64_t);
-extern template std::string shown<2>(const Grid<2>&);
-extern template std::string shown<3>(const Grid<3>&);
-
 }  // namespace slipwave

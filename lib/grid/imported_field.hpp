@@ -30,11 +30,4 @@ ImportedField imported_from(const Field<D>& field);
 /// Moves a field: its low corner lies there.
 void place_at(ImportedField& field, const Point<3>& origin_m);
 
-extern template ImportedField imported_from(const Field<2>&);
-extern template ImportedField imported_from(const Field<3>&);
-extern template Grid<2> grid_of<2>(const ImportedField&);
-extern template Grid<3> grid_of<3>(const ImportedField&);
-extern template Field<2> field_of<2>(const ImportedField&);
-extern template Field<3> field_of<3>(const ImportedField&);
-
 }  // namespace slipwave

@@ -37,13 +37,4 @@ enum class DepthTake {
 template <int D>
 Field<D> in_regular_depth(const Field<D>& field, DepthTake take);
 
-extern template std::vector<double> faces_of_column(const Grid<2>&, Index<2>);
-extern template std::vector<double> faces_of_column(const Grid<3>&, Index<3>);
-extern template std::array<double, 2> depth_extent(const Grid<2>&);
-extern template std::array<double, 2> depth_extent(const Grid<3>&);
-extern template Grid<2> in_regular_depth(const Grid<2>&);
-extern template Grid<3> in_regular_depth(const Grid<3>&);
-extern template Field<2> in_regular_depth(const Field<2>&, DepthTake);
-extern template Field<3> in_regular_depth(const Field<3>&, DepthTake);
-
 }  // namespace slipwave

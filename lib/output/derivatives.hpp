@@ -22,9 +22,4 @@ Field<2> curl(const std::array<Field<2>, 2>& velocity);
 /// x, y and z component.
 std::array<Field<3>, 3> curl(const std::array<Field<3>, 3>& velocity);
 
-extern template Field<2> derivative<2>(const Field<2>&, int);
-extern template Field<3> derivative<3>(const Field<3>&, int);
-extern template Field<2> divergence<2>(const std::array<Field<2>, 2>&);
-extern template Field<3> divergence<3>(const std::array<Field<3>, 3>&);
-
 }  // namespace slipwave

@@ -95,9 +95,4 @@ Raster interpolated(const std::function<const float*(std::int64_t)>& row, const 
 /// Pixels along a length on the page; 1 at least.
 int pixels_along(double length_pt, const Page& page);
 
-extern template Raster reduced<float>(const std::function<const float*(std::int64_t)>&,
-                                      const std::vector<Cells>&, const std::vector<Cells>&, Take);
-extern template Raster reduced<std::uint8_t>(const std::function<const std::uint8_t*(std::int64_t)>&,
-                                             const std::vector<Cells>&, const std::vector<Cells>&, Take);
-
 }  // namespace slipwave::plot

@@ -99,7 +99,4 @@ double height_per_width(const Axis& x, const Axis& depth);
 void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& section, const GridPixels& pixels,
                     const Image& below, bool hatched = true);
 
-extern template Raster reduced(const Field<2, float>&, const GridPixels&, Take);
-extern template Raster reduced(const Field<2, std::uint8_t>&, const GridPixels&, Take);
-
 }  // namespace slipwave::plot

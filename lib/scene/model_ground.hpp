@@ -11,7 +11,4 @@ namespace slipwave {
 template <int D>
 bool see(Ground<D>& ground, const Medium<D>& medium);
 
-extern template bool see(Ground<2>&, const Medium<2>&);
-extern template bool see(Ground<3>&, const Medium<3>&);
-
 }  // namespace slipwave

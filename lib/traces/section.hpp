@@ -30,9 +30,4 @@ template <int D>
 std::vector<std::string> write_section(OutputFile& out, const Field<D>& section, const SectionFacts& facts,
                                        const segy::FileFormat& format);
 
-extern template std::vector<std::string> write_section(OutputFile&, const Field<2>&, const SectionFacts&,
-                                                       const segy::FileFormat&);
-extern template std::vector<std::string> write_section(OutputFile&, const Field<3>&, const SectionFacts&,
-                                                       const segy::FileFormat&);
-
 }  // namespace slipwave

@@ -256,11 +256,4 @@ InterpolationKernel<Real> interpolation_kernel();
 /// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3" or "generic".
 const char* instruction_set();
 
-extern template const Kernels<float>& kernels<float>(int, bool);
-extern template const Kernels<double>& kernels<double>(int, bool);
-extern template InterpolationKernel<float> interpolation_kernel<float>();
-extern template InterpolationKernel<double> interpolation_kernel<double>();
-extern template const PmlKernels<float>& pml_kernels<float>();
-extern template const PmlKernels<double>& pml_kernels<double>();
-
 }  // namespace slipwave::solver
