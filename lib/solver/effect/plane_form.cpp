@@ -196,14 +196,8 @@ bool PlaneForm<D>::cells(double x, double spacing, std::int64_t first, std::int6
 
 SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, add_up);
 SLIPWAVE_INSTANTIATE_REAL(FUNCTION, TimeSeries::values);
-template bool PlaneForm<2>::cells(double, double, std::int64_t, std::int64_t, double, double, double, float*,
-                                  std::int64_t) const;
-template bool PlaneForm<2>::cells(double, double, std::int64_t, std::int64_t, double, double, double, double*,
-                                  std::int64_t) const;
-template bool PlaneForm<3>::cells(double, double, std::int64_t, std::int64_t, double, double, double, float*,
-                                  std::int64_t) const;
-template bool PlaneForm<3>::cells(double, double, std::int64_t, std::int64_t, double, double, double, double*,
-                                  std::int64_t) const;
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, PlaneForm<2>::cells);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, PlaneForm<3>::cells);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, top_of_row);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, depths_of_rows);
 SLIPWAVE_INSTANTIATE_D(TYPE, class PlaneForm);
