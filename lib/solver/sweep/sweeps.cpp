@@ -32,24 +32,28 @@ bool couples_pairs(const Domain<D>& domain, const Index<D>& at) {
   return medium && (medium->turned || medium->mean);
 }
 
-/// Whether edges of more than one axis are free.
+/// Whether free surfaces of more than one axis may meet in space: free edges of the whole model, or void,
+/// whose faces may have any direction.
 template <int D>
-bool has_free_edges_across(const Domain<D>& domain) {
+bool free_surfaces_meet(const Domain<D>& domain) {
+  if constexpr (D == 2) return false;
+  const auto& p_waves = domain.impedance(wave_p);
+  if (domain.subdomain.has_void || std::find(p_waves.begin(), p_waves.end(), 0.F) != p_waves.end())
+    return true;
   int axes = 0;
   for (int axis = 0; axis < D; ++axis)
-    axes += domain.edges[axis][0] == EdgeLaw::free || domain.edges[axis][1] == EdgeLaw::free;
+    axes += domain.whole_edges[axis][0] == EdgeLaw::free || domain.whole_edges[axis][1] == EdgeLaw::free;
   return axes > 1;
 }
 
 /// Whether the order of the reconstruction rises away from an edge in line with a cell: from a corrected free
-/// surface, and in space, where free edges meet, from any of a solid. Where plain images, near a second free
-/// edge say, let it reach further than corrected ones beside them, stresses at rest in the surface of a box
-/// grew (theory/interfaces.md).
+/// surface, and where free surfaces `meet`, from any of a solid. Where plain images, near a second free
+/// surface say, let it reach further than corrected ones beside them, stresses at rest in the surface of a
+/// box grew (theory/interfaces.md).
 template <int D>
-bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side) {
+bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side, bool meet) {
   at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
-  if (D == 3 && has_free_edges_across(domain))
-    return domain.edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0;
+  if (meet) return domain.edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0;
   return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
 }
 
@@ -156,6 +160,7 @@ void Sweeps<D, Real>::find_stencils(const Domain<D>& domain) {
              s_waves(beside) > 0;
     };
   }
+  const bool meet = free_surfaces_meet(domain);
   std::array<ReachBounds, std::size_t(D)> bounds;
   for (int axis = 0; axis < D; ++axis) bounds[std::size_t(axis)] = reach_bounds(domain, axis, reach_);
   // Each reads all cells.
@@ -170,8 +175,8 @@ void Sweeps<D, Real>::find_stencils(const Domain<D>& domain) {
         at[std::size_t(axis)] += side;
         return number >= 0 ? of_void(number) : axis == z_axis ? corrections_.slot(at) : -1;
       };
-      const RisesFrom<D> rises_from = [&domain, axis](const Index<D>& at, int side) {
-        return order_rises_from(domain, at, axis, side);
+      const RisesFrom<D> rises_from = [&domain, axis, meet](const Index<D>& at, int side) {
+        return order_rises_from(domain, at, axis, side, meet);
       };
       stencils_[std::size_t(axis)][std::size_t(pair)] =
           InterfaceStencils(StencilSearch<D>{.impedances = {&domain.impedance_of_pair(axis, pair)},
