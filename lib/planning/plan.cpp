@@ -441,10 +441,7 @@ bool joins_unlike_solids(const Medium<D>& medium) {
       if (++at[std::size_t(axis)] == grid.shape[std::size_t(axis)]) continue;
       const auto one = std::size_t(n), other = std::size_t(grid.flat(at));
       if (!medium.is_solid(one) || !medium.is_solid(other)) continue;
-      for (const Wave wave : {wave_p, wave_s})
-        if (strong_interface_between(wave_impedance(medium, one, axis, wave),
-                                     wave_impedance(medium, other, axis, wave)))
-          return true;
+      if (strong_interface(medium, one, other, axis)) return true;
     }
   return false;
 }
@@ -452,10 +449,8 @@ bool joins_unlike_solids(const Medium<D>& medium) {
 /// What a long run may gain where no wave can leave.
 template <int D>
 std::optional<std::string> gain_of_closed_box(const Scene<D>& scene, double steps) {
-  bool absorbs = false;
-  for (int axis = 0; axis < D; ++axis)
-    for (const int side : {0, 1}) absorbs |= scene.edges[axis][side] == EdgeLaw::absorbing;
-  if (steps <= steps_without_gain || absorbs || !joins_unlike_solids(scene.model.medium)) return std::nullopt;
+  if (steps <= steps_without_gain || any_edge_absorbs(scene) || !joins_unlike_solids(scene.model.medium))
+    return std::nullopt;
   return "no edge absorbs, and waves along interfaces of unlike rocks may gain up to " +
          shown(100 * std::expm1(gain_in_a_step * steps), 2) + " % of their amplitude in " +
          shown(std::round(steps)) + " steps: let an edge absorb, or use larger cells";

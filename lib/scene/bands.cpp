@@ -95,16 +95,6 @@ int kind_of(const Medium<D>& medium, std::size_t cell) {
   return medium.is_solid(cell) ? 2 : medium.is_fluid(cell) ? 1 : 0;
 }
 
-/// Whether sweeps take the face between two cells for a strong interface.
-template <int D>
-bool strong_interface(const Medium<D>& medium, std::size_t one, std::size_t other) {
-  const auto apart = [&](Wave wave) {
-    return strong_interface_between(wave_impedance(medium, one, D - 1, wave),
-                                    wave_impedance(medium, other, D - 1, wave));
-  };
-  return apart(wave_p) || apart(wave_s);
-}
-
 /// How many columns of a face between bands have a strong interface on it, as a share.
 template <int D>
 double share_of_interface(const Medium<D>& medium, std::int64_t face) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "model/anisotropy.hpp"
+#include "model/coefficients.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
@@ -20,6 +22,16 @@ inline constexpr int widest_step_in_rock = 2;
 /// Rows of a neighbour beyond a face between bands that a band holds: as many as decide how it sweeps its own
 /// rows and the first beyond them.
 constexpr std::int64_t rows_beside_band(int order) { return std::int64_t(3) * nearness_of(order); }
+
+/// Whether sweeps along an axis take the face between two cells for a strong interface.
+template <int D>
+bool strong_interface(const Medium<D>& medium, std::size_t one, std::size_t other, int axis = D - 1) {
+  const auto apart = [&](Wave wave) {
+    return strong_interface_between(wave_impedance(medium, one, axis, wave),
+                                    wave_impedance(medium, other, axis, wave));
+  };
+  return apart(wave_p) || apart(wave_s);
+}
 
 /// Bands as an option gives them, "0:0.6,30:2.4": where each begins, m, and the size of its cells, m; empty
 /// for "none" and "auto". Throws a usage Error.

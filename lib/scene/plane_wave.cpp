@@ -10,6 +10,7 @@
 #include "model/anisotropy.hpp"
 #include "model/plane_motion.hpp"
 #include "model/space_motion.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave {
 namespace {
@@ -208,10 +209,7 @@ bool in_one_medium(const Scene<D>& scene, bool refuse, std::optional<std::size_t
 
 template <int D>
 bool absorbs_at_sides(const Scene<D>& scene) {
-  bool any = false;
-  for (int axis = 0; axis < D - 1; ++axis)
-    for (const int side : {0, 1}) any |= scene.edges[axis][side] == EdgeLaw::absorbing;
-  return any;
+  return any_edge_absorbs(scene, D - 1);
 }
 
 /// Chooses in which medium the incident field of a wave is known that is not a vertical one in 2-D.

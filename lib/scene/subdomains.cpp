@@ -69,6 +69,14 @@ bool couples_pairs(const Medium<D>& medium, int order) {
 }
 
 template <int D>
+bool any_edge_absorbs(const Scene<D>& scene, int axes) {
+  bool any = false;
+  for (int axis = 0; axis < axes; ++axis)
+    for (const int side : {0, 1}) any |= scene.edges[axis][side] == EdgeLaw::absorbing;
+  return any;
+}
+
+template <int D>
 bool has_void(const Medium<D>& medium) {
   return std::any_of(medium.vp.begin(), medium.vp.end(), [](float vp) { return vp == 0; });
 }
@@ -242,14 +250,13 @@ void join(Scene<D>& scene, Ranks& ranks) {
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, askew_sets);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, any_edge_absorbs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_shear);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_void);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, couples_pairs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, rows_of);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, side_speeds);
-
 SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_of_a_step);
-
 SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_of_a_tile);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, subdomain_for);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, cut_to);

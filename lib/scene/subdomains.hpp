@@ -19,6 +19,9 @@ std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& m
 /// Whether there is shear stress in a model: in solid cells, and in fluid whose rows are bent.
 template <int D>
 bool has_shear(const Medium<D>& medium);
+/// Whether an edge of the first `axes` axes absorbs.
+template <int D>
+bool any_edge_absorbs(const Scene<D>& scene, int axes = D);
 /// Whether any cell is void: sweeps then correct free surfaces inside the model.
 template <int D>
 bool has_void(const Medium<D>& medium);

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "scene/splitting.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/effect/attenuation.hpp"
 #include "solver/effect/incident_pml.hpp"
 #include "solver/effect/linear_slip.hpp"
@@ -20,10 +21,7 @@ namespace {
 
 template <int D>
 bool absorbs(const Scene<D>& scene, const Source<D>& source) {
-  bool any = false;
-  for (int axis = 0; axis < D; ++axis)
-    for (const int side : {0, 1}) any |= scene.edges[axis][side] == EdgeLaw::absorbing;
-  return any && zone_cells(scene, source) > 0;
+  return any_edge_absorbs(scene) && zone_cells(scene, source) > 0;
 }
 
 /// Friction comes after the springs under it.
