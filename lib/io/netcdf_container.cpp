@@ -13,7 +13,12 @@ namespace {
 
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
-struct Malformed {};
+/// Longer than any file: a number beyond it is damage, and below it sums of two do not overflow.
+constexpr std::uint64_t no_file_is_longer = std::uint64_t(1) << 62;
+
+[[noreturn]] void throw_damaged() {
+  throw Error("the header of this netCDF file is damaged: make or copy the file again");
+}
 
 /// Reads the header of a classic file (CDF-1, -2, -5), big-endian, front to back.
 class ClassicHeader {
@@ -40,7 +45,7 @@ class ClassicHeader {
       bool in_records = false;
       for (std::uint64_t rank = count(), axis = 0; axis < rank; ++axis) {
         const std::uint64_t dimension = count();
-        if (dimension >= lengths.size()) throw Malformed{};
+        if (dimension >= lengths.size()) throw_damaged();
         const std::uint64_t length = lengths[dimension];
         if (length == 0 && axis == 0) {
           in_records = true;
@@ -52,7 +57,7 @@ class ClassicHeader {
       const std::uint64_t bytes = product(elements, width_of(number(4)));
       count();  // vsize: computed instead, it saturates in large files
       const std::uint64_t begin = number(version_ == 1 ? 4 : 8);
-      if (begin > (std::uint64_t(1) << 62)) throw Malformed{};
+      if (begin > no_file_is_longer) throw_damaged();
       if (in_records) {
         ++record_variables;
         only_record_bytes = bytes;
@@ -83,6 +88,8 @@ class ClassicHeader {
     return count();
   }
   void skip(std::uint64_t bytes) {
+    // Near 2^64 the sum would wrap round: the position would go back and the same bytes be read without end.
+    if (bytes > no_file_is_longer) throw_damaged();
     position_ += (bytes + 3) / 4 * 4;
     if (position_ > size_) throw_truncated(position_);
   }
@@ -96,12 +103,12 @@ class ClassicHeader {
   }
   static std::uint64_t product(std::uint64_t a, std::uint64_t b) {
     std::uint64_t result = 0;
-    if (__builtin_mul_overflow(a, b, &result) || result > (std::uint64_t(1) << 62)) throw Malformed{};
+    if (__builtin_mul_overflow(a, b, &result) || result > no_file_is_longer) throw_damaged();
     return result;
   }
   static std::uint64_t width_of(std::uint64_t type) {
     constexpr std::array<int, 12> widths = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-    if (type == 0 || type >= widths.size()) throw Malformed{};
+    if (type == 0 || type >= widths.size()) throw_damaged();
     return std::uint64_t(widths[type]);
   }
   [[noreturn]] void throw_truncated(std::uint64_t least) const {
@@ -147,16 +154,8 @@ void check_not_truncated(const ReadAt& read_at, std::uint64_t size) {
     throw Error("found " + std::to_string(size) + " bytes, expected a netCDF file");
   }
   if (!begins_netcdf({first.data(), first.size()})) return;
-  std::uint64_t least = 0;
-  if (first[0] == 'C') {
-    try {
-      least = ClassicHeader(read_at, size, first[3]).least_size();
-    } catch (const Malformed&) {
-      return;
-    }
-  } else {
-    least = hdf5_size(read_at);
-  }
+  const std::uint64_t least =
+      first[0] == 'C' ? ClassicHeader(read_at, size, first[3]).least_size() : hdf5_size(read_at);
   if (size < least) {
     throw Error("truncated: found " + std::to_string(size) + " bytes, expected " + std::to_string(least));
   }

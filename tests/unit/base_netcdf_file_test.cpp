@@ -199,3 +199,20 @@ TEST(NetcdfContainer, ComputesTheSizeOfAClassicFileFromItsHeader) {
   EXPECT_NO_THROW(check_not_truncated(read_at, 100));
   EXPECT_THROW(check_not_truncated(read_at, 99), Error);
 }
+
+TEST(NetcdfContainer, RefusesLengthsThatWouldWrapRound) {
+  // CDF-5, no records, 2^63 dimensions whose names have 2^64 - 16 letters: each would lead back to the one
+  // before.
+  std::string header("CDF\x05", 4);
+  const auto word = [&](std::uint64_t value, int bytes) {
+    for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8) header += char(value >> shift & 0xff);
+  };
+  word(0, 8), word(10, 4), word(std::uint64_t(1) << 63, 8), word(~std::uint64_t(0) - 15, 8);
+  header += std::string(68, '\0');
+  const auto read_at = [&](std::uint64_t offset, void* to, std::size_t count) {
+    if (offset + count > header.size()) return false;
+    header.copy(static_cast<char*>(to), count, offset);
+    return true;
+  };
+  EXPECT_THROW(check_not_truncated(read_at, header.size()), Error);
+}
