@@ -60,7 +60,8 @@ class Search {
       ++runs, telling += tells;
       refute(measured);
       if (tells) learn(measured);
-      widen_after(measured);
+      edges_matter_ = may_widen() && matters(measured.by_edges);
+      edges_alone_ = edges_matter_ && measured.by_cells <= aim * wanted_;
       all_run_.push_back(*setting);
       const double found = measured.error.whole;
       worse_ = better || best_->by_cells > all_wrong ? 0 : worse_ + 1;
@@ -142,7 +143,7 @@ class Search {
       return with_possible_cells(*next);
     };
     const auto setting = cheapest();
-    return setting && widened_before_runs(*setting) ? cheapest() : setting;
+    return setting && widened(*setting) ? cheapest() : setting;
   }
   /// The best scheme so far, in cells as much smaller as those that its error is measured in are larger, or
   /// less where errors of first order would fall enough; a size that was no better is passed by.
@@ -175,32 +176,28 @@ class Search {
   void note_time(const AccuracySetting& setting) {
     seconds_per_cost_ = runs_.run(setting).seconds / settings_.cost(setting);
   }
-  /// Edges twice as wide as long as that changes much of what is wanted, in larger cells. True where they are
-  /// wider now.
-  bool widened_before_runs(const AccuracySetting& setting) {
-    if (runs_.scene().numerics.zone_cells > 0 || edges_seen_) return false;
-    edges_seen_ = true;
+  /// Doubles the width of edges as long as that changes much of what is wanted, in the largest cells that the
+  /// setting is measured in: before the first run, and where a run has shown that they matter. True where
+  /// they are wider now.
+  bool widened(const AccuracySetting& setting) {
+    if (!edges_matter_) return false;
+    edges_matter_ = false;
     auto wide = other_sizes(runs_, setting).back();
-    int zone = runs_.zone_of(setting);
+    const int own = runs_.zone_of(setting);
+    int zone = own;
     for (int n = 0; n < most_doublings; ++n) {
       const auto wider = with_wider_edges(runs_, wide);
-      if (!wider ||
-          gather_error(runs_.run(*wider).observed, runs_.run(wide).observed).whole < edge_share * wanted_)
+      if (!wider) break;
+      const bool measured = best_ && n == 0;
+      if (!measured && !matters(gather_error(runs_.run(*wider).observed, runs_.run(wide).observed).whole))
         break;
       wide = *wider;
-      zone *= 2;
-      zone_ = zone;
+      zone_ = zone *= 2;
     }
-    return zone_ > 0;
+    return zone > own;
   }
-  /// The edges of the next setting, in smaller cells narrower, are twice as wide where that matters.
-  void widen_after(const MeasuredError& measured) {
-    edges_alone_ = false;
-    const bool matters = measured.by_edges > edge_share * wanted_;
-    if (runs_.scene().numerics.zone_cells > 0 || !matters) return;
-    zone_ = std::max(zone_, 2 * runs_.zone_of(measured.setting));
-    edges_alone_ = measured.by_cells <= aim * wanted_;
-  }
+  bool may_widen() const { return runs_.scene().numerics.zone_cells == 0; }
+  bool matters(double by_edges) const { return by_edges > edge_share * wanted_; }
   void learn(const MeasuredError& measured) {
     // Traces that do not hang on the cells tell nothing of them.
     if (!(measured.by_cells > 0)) return;
@@ -217,10 +214,10 @@ class Search {
   std::vector<AccuracySetting> all_run_;
   bool misled_ = false;  // by what is known, or nothing is known yet
   SettingSearch<D> settings_;
-  int zone_ = 0;  // of edges, cells; 0: as they are
-  bool edges_seen_ = false;
-  int worse_ = 0;             // than the best, the last ones
-  bool edges_alone_ = false;  // keep the error above what is wanted
+  int zone_ = 0;                     // of edges, cells; 0: as they are
+  bool edges_matter_ = may_widen();  // as far as is known
+  bool edges_alone_ = false;         // keep the error above what is wanted
+  int worse_ = 0;                    // than the best, the last ones
   double seconds_per_cost_ = 0;
   std::optional<MeasuredError> best_;
   std::string reason_;
