@@ -493,12 +493,6 @@ const AnisotropicCell* Domain<D>::anisotropic_cell(const Index<D>& at) const {
 }
 
 template <int D>
-double Domain<D>::coupling_at_edge(const Index<D>& cell, int axis, int along) const {
-  const double zp = impedance(wave_p, axis)(cell), zs = impedance(wave_s)(cell);
-  return anisotropic_ ? coupling(cell, axis, along) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp);
-}
-
-template <int D>
 bool Domain<D>::shear() const {
   const auto& z_s = impedance(wave_s);
   return std::any_of(z_s.begin(), z_s.end(), [](float z) { return z > 0; });

@@ -83,10 +83,6 @@ class Domain {
   double coupling(const Index<D>& cell, int one = 0, int other = D - 1) const {
     return more_[std::size_t(coupling_row<D>(material_kind_, one, other))](cell);
   }
-  /// The share of a strain along an edge that is left of strain across it, of an axis, where no traction acts
-  /// there, with the sign turned: lambda/(lambda + 2 mu) in isotropic rock (theory.md (V4)). Rock whose axes
-  /// are turned has edge_coupling().
-  double coupling_at_edge(const Index<D>& cell, int axis, int along) const;
   /// By cell, ascending. Equivalent TTI cells of zones are isotropic, and those in bent rows and beside them.
   const std::vector<AnisotropicCell>& anisotropic_cells() const { return cells_; }
   const std::vector<AnisotropicMedium<D>>& anisotropic_media() const { return media_; }
@@ -162,16 +158,6 @@ class Domain {
   std::vector<AnisotropicCell> cells_;
   std::vector<AnisotropicMedium<D>> media_;
 };
-
-/// What a difference of the velocity along another axis leaves of that across a free edge of an axis where no
-/// traction acts there, as a matrix of the axes of the grid: the difference across is minus the matrix times
-/// that along (theory.md (V7), (O9)).
-template <int D>
-SmallMatrix<std::size_t(D)> edge_coupling(const Elasticity<D>& elasticity, int axis, int along) {
-  const auto across = unit_vector<std::size_t(D)>(std::size_t(axis)),
-             beside = unit_vector<std::size_t(D)>(std::size_t(along));
-  return product_of(inverse_of(christoffel<D>(elasticity, across)), tractions<D>(elasticity, across, beside));
-}
 
 /// The elasticity that loops of sweeps take a cell of an anisotropic domain for, times the density.
 template <int D>

@@ -45,67 +45,14 @@ class AlongSurface {
   std::vector<SurfaceTerm<D>> terms_;
 };
 
-/// Returns the terms of the slope of a velocity at a free surface of a curvilinear row at an end of z: all
-/// velocities of the neighbours take part.
+/// N of the surface where a cell ends, and how far the first ghost is from it along the axis, in cells.
 template <int D>
-std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& at, int side, int row) {
-  const auto [normal, height] = end_of_rows(domain, at, side);
-  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-  const double mu = zs * zs / (zp * zp), outward = side ? -1 : 1,
-               factor = outward * height / dot(normal, normal);
-  AlongSurface<D> velocities(domain, at, D - 1, side);
-  for (int along = 0; along < D - 1; ++along) {
-    if (thin(domain, along)) {
-      if (ends_free(domain, along)) return {};
-      continue;
-    }
-    for (int of = 0; of < D; ++of) {
-      std::array<RowVector<D, double>, std::size_t(D - 1)> one{};
-      component(one[std::size_t(along)], of) = 1;
-      auto bend = scaled(normal, factor, factor / mu, traction_of_motion_along<D>(normal, 1.0, mu, one));
-      const double share = component(bend, row);
-      if (share != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), share)) return {};
-    }
+std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& at, int axis, int side) {
+  if (domain.bent(at[D - 1])) {
+    const auto [normal, height] = end_of_rows(domain, at, side);
+    return {normal_in_grid<D>(normal), height};
   }
-  return velocities.terms();
-}
-
-/// Returns the terms of the slope of a velocity at a free surface of an anisotropic cell of a curvilinear
-/// row: the acoustic tensor of N takes the slopes to the traction of motion along the rows.
-template <int D>
-std::vector<SurfaceTerm<D>> anisotropic_bent_slope(const Domain<D>& domain, const Index<D>& at, int side,
-                                                   int row) {
-  const auto [normal, height] = end_of_rows(domain, at, side);
-  const auto c = elasticity_at(domain, at);
-  const auto n = normal_in_grid<D>(normal);
-  const auto over = inverse_of(christoffel<D>(c, n));
-  const double outward = (side ? -1 : 1) * height;
-  AlongSurface<D> velocities(domain, at, D - 1, side);
-  for (int along = 0; along < D - 1; ++along) {
-    if (thin(domain, along)) {
-      if (ends_free(domain, along)) return {};
-      continue;
-    }
-    const auto bend = product_of(over, tractions<D>(c, n, unit_vector<std::size_t(D)>(std::size_t(along))));
-    for (int of = 0; of < D; ++of) {
-      const double share = outward * bend[std::size_t(row)][std::size_t(of)];
-      if (share != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), share)) return {};
-    }
-  }
-  return velocities.terms();
-}
-
-/// Adds what motion along one axis of the edge bends of a velocity in rock whose axes are turned; false where
-/// there is no difference.
-template <int D>
-bool add_turned(const Elasticity<D>& elasticity, int axis, int along, int row, double outward,
-                AlongSurface<D>& velocities) {
-  const auto coupling = edge_coupling<D>(elasticity, axis, along);
-  for (int of = 0; of < D; ++of) {
-    const double factor = outward * coupling[std::size_t(row)][std::size_t(of)];
-    if (factor != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), factor)) return false;
-  }
-  return true;
+  return {unit_vector<std::size_t(D)>(std::size_t(axis)), axis == D - 1 ? domain.height(at[D - 1]) : 1};
 }
 
 /// The sign of a field in its mirror image at an edge of an axis.
@@ -168,7 +115,6 @@ std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, con
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row) {
-  using Rows = FieldRows<D>;
   const double zs = domain.impedance(wave_s)(at);
   const bool bent = domain.bent(at[D - 1]);
   // On bent rows sides keep the plain mirror image.
@@ -181,31 +127,24 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
     before = next;
   }
-  if (bent && domain.anisotropic_cell(at)) return anisotropic_bent_slope(domain, at, side, row);
-  if (bent) return bent_slope(domain, at, side, row);
-  const double height = domain.height(at[D - 1]);
+  // The slope across takes away the traction that motion along the surface puts on it.
+  const auto c = elasticity_at(domain, at);
+  const auto [normal, away] = surface_at(domain, at, axis, side);
+  const auto over = inverse_of(christoffel<D>(c, normal));
   AlongSurface<D> velocities(domain, at, axis, side);
   for (int along = 0; along < D; ++along) {
     if (along == axis) continue;
-    // The first ghost lies a cell of this axis away, neighbours along the edge one of the other.
-    const double outward = (side ? -1 : 1) * (axis == D - 1 ? height : along == D - 1 ? 1 / height : 1);
     if (thin(domain, along)) {
       if (ends_free(domain, along)) return {};
       continue;
     }
-    if (const auto* const medium = domain.anisotropic_medium(at)) {
-      if (!add_turned(medium->elasticity, axis, along, row, outward, velocities)) return {};
-      continue;
+    const double outward = (side ? -1 : 1) * away / (along == D - 1 ? domain.height(at[D - 1]) : 1);
+    const auto bend =
+        product_of(over, tractions<D>(c, normal, unit_vector<std::size_t(D)>(std::size_t(along))));
+    for (int of = 0; of < D; ++of) {
+      const double factor = outward * bend[std::size_t(row)][std::size_t(of)];
+      if (factor != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), factor)) return {};
     }
-    const auto add = [&](int of, double factor) {
-      return factor == 0 || velocities.add_difference(along, Rows::velocity(of), outward * factor);
-    };
-    bool found = true;
-    if (row == Rows::velocity(axis))
-      found = add(along, domain.coupling_at_edge(at, axis, along));
-    else if (row == Rows::velocity(along))
-      found = add(axis, 1);
-    if (!found) return {};
   }
   return velocities.terms();
 }
@@ -303,8 +242,8 @@ void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domai
   for (int pair = 0; pair < D; ++pair) {
     const int along = pair == 0 ? axis_ : axis_of_pair<D>(axis_, pair);
     const auto terms = surface_slope(domain, at, axis_, side_, FieldRows<D>::velocity(along));
-    found = !terms.empty();
-    if (!found) continue;
+    if (terms.empty()) continue;
+    found = true;
     const auto begin = terms_.size();
     for (const auto& term : terms)
       terms_.push_back({place_of(layout, term.cell, 0, term.row), Real(term.weight)});
@@ -312,42 +251,25 @@ void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domai
     cells_.push_back(
         {pair, number(at), place(row_b), place(impedance_row), Real(outward), begin, terms_.size()});
     if (inside_) corrected_[std::size_t(number(at))] = 1;
-    if (pair > 0 || !domain.bent(at[D - 1])) continue;
-    const auto [normal, height] = end_of_rows(domain, at, side_);
-    BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
-    end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
-    if constexpr (D == 3) end.normal.y = Real(normal.y);
-    if (domain.anisotropic_cell(at)) find_tensor(domain, at, normal, outward_ / height, end);
-    end.factor = Real(dot(normal, normal) * outward_ / height);
-    bent_ends_.push_back(end);
   }
-  if (found && domain.anisotropic_cell(at) && !domain.bent(at[D - 1]))
-    tilted_ends_.push_back({number(at), place(row_b), mixed_stiffness(domain, at, outward)});
+  if (found && (domain.anisotropic_cell(at) || domain.bent(at[D - 1])))
+    matrix_ends_.push_back({number(at), place(row_b), stiffness_across(domain, at)});
 }
 
+/// Tractions as stresses of the first ghost: T = s N, with that of the last components along the rows as it
+/// is.
 template <int D, class Real>
-void FreeSurface<D, Real>::find_tensor(const Domain<D>& domain, const Index<D>& at,
-                                       const RowVector<D, double>& normal, double factor, BentEnd& end) {
-  end.anisotropic = true;
-  const auto tensor = in_pairs<D>(christoffel<D>(elasticity_at(domain, at), normal_in_grid<D>(normal)));
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t k = 0; k < D; ++k) end.tensor[i][k] = Real(factor * tensor[i][k]);
-}
-
-/// Returns the stiffnesses that mix two pairs: in 2-D both, in 3-D the first two, the first and the last, and
-/// the last two.
-template <int D, class Real>
-auto FreeSurface<D, Real>::mixed_stiffness(const Domain<D>& domain, const Index<D>& at, double factor) const
-    -> Mixed {
-  const auto& medium = *domain.anisotropic_medium(at);
-  Mixed all;
-  std::size_t n = 0;
-  for (int one = 0; one < D; ++one)
-    for (int other = one + 1; other < D; ++other) {
-      const auto motion = [&](int pair) { return pair == 0 ? axis_ : axis_of_pair<D>(axis_, pair); };
-      all[n++] = Real(medium.elasticity(motion(one), axis_, motion(other), axis_) * medium.rho * factor);
-    }
-  return all;
+SmallMatrix<std::size_t(D), Real> FreeSurface<D, Real>::stiffness_across(const Domain<D>& domain,
+                                                                         const Index<D>& at) const {
+  const auto [normal, away] = surface_at(domain, at, axis_, side_);
+  const auto n = in_pairs<D>(normal, axis_);
+  auto tensor = in_pairs<D>(christoffel<D>(elasticity_at(domain, at), normal), axis_);
+  SmallMatrix<std::size_t(D), Real> stiffness;
+  for (std::size_t k = 0; k < D; ++k) {
+    for (std::size_t i = 1; i < D; ++i) tensor[0][k] -= n[i] * tensor[i][k];
+    for (std::size_t i = 0; i < D; ++i) stiffness[i][k] = Real(outward_ / away * tensor[i][k]);
+  }
+  return stiffness;
 }
 
 template <int D, class Real>
@@ -437,54 +359,16 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, const
     traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] =
         cell->outward * stiffness * slope;
   }
-  correct_tilted_ends(state, first, last);
-  correct_bent_ends(state, first, last);
+  auto end = std::lower_bound(matrix_ends_.begin(), matrix_ends_.end(), first,
+                              [](const MatrixEnd& one, std::int64_t number) { return one.number < number; });
+  for (; end != matrix_ends_.end() && end->number < last; ++end) {
+    const auto n = std::size_t(end->number);
+    std::array<Real, std::size_t(D)> slopes;
+    for (std::size_t k = 0; k < D; ++k) slopes[k] = material[end->b] * velocity_corrections_[k][n];
+    const auto stresses = product_of(end->stiffness, slopes);
+    for (std::size_t i = 0; i < D; ++i) traction_corrections_[i][n] = stresses[i];
+  }
   tractions_.update(fields, material, first, last);
-}
-
-/// Tractions that the bend of one velocity puts on the other component (theory.md (V7)).
-template <int D, class Real>
-void FreeSurface<D, Real>::correct_tilted_ends(const State<D, Real>& state, std::int64_t first,
-                                               std::int64_t last) {
-  auto end = std::lower_bound(tilted_ends_.begin(), tilted_ends_.end(), first,
-                              [](const TiltedEnd& one, std::int64_t number) { return one.number < number; });
-  for (; end != tilted_ends_.end() && end->number < last; ++end) {
-    const auto n = std::size_t(end->number);
-    std::size_t k = 0;
-    for (std::size_t one = 0; one < D; ++one)
-      for (std::size_t other = one + 1; other < D; ++other) {
-        const Real mixed = end->mixed[k++] * state.material.data()[end->b];
-        traction_corrections_[one][n] += mixed * velocity_corrections_[other][n];
-        traction_corrections_[other][n] += mixed * velocity_corrections_[one][n];
-      }
-  }
-}
-
-/// The traction that bends velocities as the corrections do, as stresses of the first ghost cells: with that
-/// of the last component along the rows as it is, T = s N.
-template <int D, class Real>
-void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::int64_t first,
-                                             std::int64_t last) {
-  auto end = std::lower_bound(bent_ends_.begin(), bent_ends_.end(), first,
-                              [](const BentEnd& one, std::int64_t number) { return one.number < number; });
-  const Real* const material = state.material.data();
-  for (; end != bent_ends_.end() && end->number < last; ++end) {
-    const auto n = std::size_t(end->number);
-    RowVector<D, Real> bend;
-    bend.z = velocity_corrections_[0][n], bend.x = velocity_corrections_[1][n];
-    if constexpr (D == 3) bend.y = velocity_corrections_[2][n];
-    const Real b = material[end->b], zp = material[end->zp], zs = material[end->zs];
-    auto t = end->factor * scaled(end->normal, zp * zp * b, zs * zs * b, bend);
-    if (end->anisotropic) {
-      t = b * row_vector<D>(product_of(end->tensor, components<D>(bend)));
-    }
-    traction_corrections_[0][n] = t.z - end->normal.x * t.x;
-    traction_corrections_[1][n] = t.x;
-    if constexpr (D == 3) {
-      traction_corrections_[0][n] -= end->normal.y * t.y;
-      traction_corrections_[2][n] = t.y;
-    }
-  }
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_slope);

@@ -57,9 +57,9 @@ class FreeSurface {
 
   bool empty() const { return cells_.empty(); }
   std::int64_t memory_bytes() const {
-    return bytes_of(cells_) + bytes_of(bent_ends_) + bytes_of(tilted_ends_) + bytes_of(terms_) +
-           bytes_of(retained_) + bytes_of(keys_) + bytes_of(places_) + bytes_of(corrected_) +
-           bytes_of(velocity_corrections_) + bytes_of(traction_corrections_) + tractions_.memory_bytes();
+    return bytes_of(cells_) + bytes_of(matrix_ends_) + bytes_of(terms_) + bytes_of(retained_) +
+           bytes_of(keys_) + bytes_of(places_) + bytes_of(corrected_) + bytes_of(velocity_corrections_) +
+           bytes_of(traction_corrections_) + tractions_.memory_bytes();
   }
   int side() const { return side_; }
   /// Whether it is not an edge of the grid.
@@ -102,14 +102,11 @@ class FreeSurface {
     Real outward;  // over the height of the row in cells
     std::size_t terms_begin, terms_end;
   };
-  /// A cell of a bent row: places of its material, N of the edge, and N.N over J, negative at a high side.
-  struct BentEnd {
-    std::int64_t number, b, zp, zs;
-    RowVector<D, Real> normal;
-    Real factor;
-    /// These two are of anisotropic rock: the acoustic tensor of N times the density, over J, as N.N is.
-    bool anisotropic = false;
-    SmallMatrix<std::size_t(D), Real> tensor{};
+  /// A cell in a curvilinear row or of anisotropic rock: the place of b, and the density times the stiffness
+  /// by which the slopes of all pairs put traction on the surface (theory.md (V7)).
+  struct MatrixEnd {
+    std::int64_t number, b;
+    SmallMatrix<std::size_t(D), Real> stiffness;
   };
   FreeSurface(const Layout<D>& layout, int axis, int side, bool inside);
   void find_corrections(const Layout<D>& layout, const Domain<D>& domain, const std::vector<Index<D>>& cells);
@@ -117,19 +114,7 @@ class FreeSurface {
   std::int64_t key_of(const Index<D>& at) const;
   /// Place of a field of a cell of the surface, or of the one behind it, in what update_corrections() reads.
   std::int64_t place_of(const Layout<D>& layout, const Index<D>& at, int behind, int row) const;
-  static void find_tensor(const Domain<D>& domain, const Index<D>& at, const RowVector<D, double>& normal,
-                          double factor, BentEnd& end);
-  void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
-  /// A cell of rock whose axis is tilted: the place of b, and the density times the moduli by which what one
-  /// pair does across the edge puts traction of another on it, over the height of the row, negative at a high
-  /// side.
-  using Mixed = std::array<Real, std::size_t(D == 2 ? 1 : 3)>;
-  struct TiltedEnd {
-    std::int64_t number, b;
-    Mixed mixed;
-  };
-  Mixed mixed_stiffness(const Domain<D>& domain, const Index<D>& at, double factor) const;
-  void correct_tilted_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+  SmallMatrix<std::size_t(D), Real> stiffness_across(const Domain<D>& domain, const Index<D>& at) const;
 
   int axis_ = 0, side_ = 0;
   bool inside_ = false;
@@ -141,8 +126,7 @@ class FreeSurface {
   std::vector<std::int64_t> keys_, places_;
   std::vector<char> corrected_;
   std::vector<Cell> cells_;  // by number
-  std::vector<BentEnd> bent_ends_;
-  std::vector<TiltedEnd> tilted_ends_;
+  std::vector<MatrixEnd> matrix_ends_;
   std::vector<Term> terms_;     // places in the fields, across all axes but the last in retained_
   std::vector<Real> retained_;  // [number][cell of the surface, the one behind it][row]
   int retained_cells_ = 1, retained_rows_ = D;

@@ -94,16 +94,14 @@ Index<D> above(Index<D> at) {
   --at[D - 1];
   return at;
 }
-/// Differences of the velocity along x and, in 3-D, y.
-template <int D, class Real, std::size_t N>
-std::array<RowVector<D, Real>, std::size_t(D - 1)> differences_along(const std::array<std::int64_t, N>& cells,
-                                                                     const Real* fields, std::int64_t pitch) {
-  std::array<RowVector<D, Real>, std::size_t(D - 1)> along{};
-  for (std::size_t axis = 0; axis < D - 1; ++axis)
-    for (std::size_t k = 0; k < offsets_along.size(); ++k)
-      along[axis] = along[axis] + Real(weights_along[k]) *
-                                      row_velocity<D>(fields + cells[axis * offsets_along.size() + k], pitch);
-  return along;
+/// The difference of the velocity along an axis, between these cells.
+template <int D, class Real>
+std::array<Real, std::size_t(D)> difference_along(const std::int64_t* cells, const Real* fields,
+                                                  std::int64_t pitch) {
+  RowVector<D, Real> along{};
+  for (std::size_t k = 0; k < offsets_along.size(); ++k)
+    along = along + Real(weights_along[k]) * row_velocity<D>(fields + cells[k], pitch);
+  return components<D>(along);
 }
 
 }  // namespace
@@ -111,10 +109,7 @@ std::array<RowVector<D, Real>, std::size_t(D - 1)> differences_along(const std::
 template <int D, class Real>
 InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain,
                                                     const Metric<D, Real>& metric)
-    : padded_nx_(state.layout.padded_nx()),
-      material_pitch_(state.material_layout.row_pitch()),
-      zs_y_row_(s_row<D>(state.kind, 1, D - 1)),
-      coupling_y_row_(coupling_row<D>(state.kind, 1, D - 1)) {
+    : padded_nx_(state.layout.padded_nx()) {
   constexpr int z = D - 1;
   const auto& shape = domain.grid.shape;
   Grid<D> plane = domain.grid;
@@ -129,14 +124,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
       Index<D> at = plane.index(n);
       at[z] = row;
       if (!corrected(domain, at)) continue;
-      Slot slot{row, D == 2 ? at[0] : at[1] * padded_nx_ + at[0], none, {}, {}};
-      const bool bent = metric.bent_row(row) && metric.bent_row(row - 1);
-      for (int axis = 0; axis < z && bent; ++axis) {
-        Index<D> line = at;
-        line[0] = 0;
-        const auto of = metric.across(line, at[0]);
-        slot.normal[std::size_t(axis)] = 2 * of.half_n[axis * of.pitch];
-      }
+      Slot slot{row, D == 2 ? at[0] : at[1] * padded_nx_ + at[0], 0, {}};
       for (const int side : {0, 1}) {
         Index<D> cell = at;
         cell[z] += side - 1;
@@ -148,20 +136,11 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
             to.cells[std::size_t(axis) * offsets_along.size() + k] = state.layout.cell(beside);
           }
         to.b = state.material_layout.cell(cell);
-        to.j = metric.volume(cell);
-        to.coupled = domain.anisotropic() && !bent_face(domain, row);
       }
-      // Level rows know what upright rock does.
-      const auto by_matrices = [&](const Index<D>& cell) {
-        return bent_face(domain, row) ? anisotropic_across_rows(domain, cell)
-                                      : domain.anisotropic_cell(cell) != nullptr;
-      };
-      if (by_matrices(at) || by_matrices(above<D>(at))) {
-        RowVector<D, double> normal{};
-        normal.z = 1, normal.x = double(slot.normal[0]);
-        if constexpr (D == 3) normal.y = double(slot.normal[1]);
-        slot.matrices = add_matrices(state, domain, metric, at, normal);
-      }
+      const auto matrices = matrices_of(domain, metric, at);
+      // Cells along level rows share them.
+      if (matrices_.empty() || !(matrices_.back() == matrices)) matrices_.push_back(matrices);
+      slot.matrices = std::int32_t(matrices_.size()) - 1;
       slots_.push_back(slot);
     }
     first_.push_back(slots_.size());
@@ -170,16 +149,24 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
     for (auto& list : *lists) list.assign(slots_.size(), 0);
 }
 
-/// Adds the matrices of a face beside anisotropic cells and returns their number: the sums of update_slot()
-/// with impedances and tensors of the vector N.
+/// On either side motion along the interface alone puts a traction on it. Velocities bend so that it stays
+/// what it is, and half of a sweep along the interface has put half a step of it there.
 template <int D, class Real>
-std::int32_t InterfaceCorrections<D, Real>::add_matrices(const State<D, Real>& state, const Domain<D>& domain,
-                                                         const Metric<D, Real>& metric, const Index<D>& below,
-                                                         const RowVector<D, double>& normal) {
+auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const Metric<D, Real>& metric,
+                                                const Index<D>& below) -> Matrices {
   using Square = SmallMatrix<std::size_t(D)>;
+  constexpr int z = D - 1;
   constexpr std::size_t axes = D - 1;
-  const auto n = components<D>(normal);
-  const auto in_grid = normal_in_grid<D>(normal);
+  const std::int64_t row = below[z];
+  Point<D> in_grid = unit_vector<std::size_t(D)>(std::size_t(z));
+  for (int axis = 0; axis < z && metric.bent_row(row) && metric.bent_row(row - 1); ++axis) {
+    Index<D> line = below;
+    line[0] = 0;
+    const auto of = metric.across(line, below[0]);
+    in_grid[std::size_t(axis)] = 2 * double(of.half_n[axis * of.pitch]);
+  }
+  const auto n = in_pairs<D>(in_grid);
+  const double square = dot(n, n);
   Square sum{};
   std::array<std::array<Square, axes>, 2> load{}, bend{};
   bool beside_void = false;
@@ -191,15 +178,15 @@ std::int32_t InterfaceCorrections<D, Real>::add_matrices(const State<D, Real>& s
       continue;
     }
     const auto c = elasticity_at(domain, cell);
-    const auto z = impedance_across_rows<D>(c, in_grid);
-    sum = sum_of(sum, z, 1.);
+    const auto impedance = impedance_across_rows<D>(c, in_grid);
+    sum = sum_of(sum, impedance, 1.);
     double trace = 0;
-    for (std::size_t i = 0; i < D; ++i) trace += z[i][i];
+    for (std::size_t i = 0; i < D; ++i) trace += impedance[i][i];
     // (T3): Z over the tensor is the density times the inverse of Z; of a fluid along the normal alone.
     Square of_fluid{};
     for (std::size_t i = 0; i < D; ++i)
-      for (std::size_t k = 0; k < D; ++k) of_fluid[i][k] = n[i] * n[k] / (trace * dot(normal, normal));
-    const auto over = domain.impedance(wave_s)(cell) > 0 ? inverse_of(z) : of_fluid;
+      for (std::size_t k = 0; k < D; ++k) of_fluid[i][k] = n[i] * n[k] / (trace * square);
+    const auto over = domain.impedance(wave_s)(cell) > 0 ? inverse_of(impedance) : of_fluid;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       load[side][axis] = in_pairs<D>(tractions<D>(c, in_grid, unit_vector<std::size_t(D)>(axis)));
       bend[side][axis] = product_of(over, load[side][axis]);
@@ -209,39 +196,42 @@ std::int32_t InterfaceCorrections<D, Real>::add_matrices(const State<D, Real>& s
   for (const std::size_t side : {0, 1}) {
     const auto cell = side ? below : above<D>(below);
     const double sign = side ? -1 : 1, j = double(metric.volume(cell)),
-                 b = double(state.material.data()[state.material_layout.cell(cell)]);
-    const double part = beside_void ? 1 : traction_share;
+                 part = beside_void ? 1 : traction_share;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       const auto velocity = product_of(share, bend[side][axis]);
       for (std::size_t i = 0; i < D; ++i)
         for (std::size_t k = 0; k < D; ++k) {
-          const auto place = (side * axes + axis) * D + k;
-          found.velocity[i][place] = Real(-sign * j * velocity[i][k]);
-          found.traction[i][place] = Real(-sign / 2 * part * b * load[side][axis][i][k]);
+          const auto place = axis * D + k;
+          found[side].velocity[i][place] = Real(-sign * j * velocity[i][k]);
+          found[side].traction[i][place] = Real(-sign / 2 * part * load[side][axis][i][k]);
         }
     }
   }
-  matrices_.push_back(found);
-  return std::int32_t(matrices_.size()) - 1;
+  return found;
 }
 
 template <int D, class Real>
-void InterfaceCorrections<D, Real>::update_by_matrices(const State<D, Real>& state, std::size_t n) {
+void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
   const Slot& slot = slots_[n];
-  const Matrices& of = matrices_[std::size_t(slot.matrices)];
-  std::array<Real, Matrices::differences> along{};
-  std::size_t place = 0;
-  for (const auto& side : slot.sides)
-    for (const auto& difference :
-         differences_along<D>(side.cells, state.fields.data(), state.layout.row_pitch())) {
-      for (const Real part : components<D>(difference)) along[place++] = part;
+  std::array<Real, std::size_t(D)> velocity{}, traction{};
+  for (const std::size_t which : {0, 1}) {
+    const Side& side = slot.sides[which];
+    const auto& of = matrices_[std::size_t(slot.matrices)][which];
+    const Real b = state.material.data()[side.b];
+    std::array<Real, differences> along;
+    for (std::size_t axis = 0; axis < D - 1; ++axis) {
+      const auto difference = difference_along<D>(side.cells.data() + axis * offsets_along.size(),
+                                                  state.fields.data(), state.layout.row_pitch());
+      std::copy(difference.begin(), difference.end(), along.begin() + std::ptrdiff_t(axis * D));
     }
-  for (std::size_t i = 0; i < D; ++i) {
-    Real velocity = 0, traction = 0;
-    for (std::size_t k = 0; k < Matrices::differences; ++k)
-      velocity += of.velocity[i][k] * along[k], traction += of.traction[i][k] * along[k];
-    velocities_[i][n] = velocity, tractions_[i][n] = traction;
+    for (std::size_t i = 0; i < D; ++i) {
+      Real bend = 0, load = 0;
+      for (std::size_t k = 0; k < differences; ++k)
+        bend += of.velocity[i][k] * along[k], load += of.traction[i][k] * along[k];
+      velocity[i] += bend, traction[i] += b * load;
+    }
   }
+  for (std::size_t i = 0; i < D; ++i) velocities_[i][n] = velocity[i], tractions_[i][n] = traction[i];
 }
 
 template <int D, class Real>
@@ -276,58 +266,6 @@ void InterfaceCorrections<D, Real>::update(const State<D, Real>& state, std::int
 template <int D, class Real>
 void InterfaceCorrections<D, Real>::update_all(const State<D, Real>& state) {
   for (std::size_t n = 0; n < slots_.size(); ++n) update_slot(state, n);
-}
-
-/// On either side motion along the interface alone puts a traction t on it in a unit of time. Velocities bend
-/// so that it stays what it is, by a = -J t/(modulus N^2) a cell; and half of a sweep along the interface has
-/// put t dt/2 on it.
-template <int D, class Real>
-void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
-  using Vector = RowVector<D, Real>;
-  const Slot& slot = slots_[n];
-  if (slot.matrices != none) return update_by_matrices(state, n);
-  const Vector normal = row_normal<D>(slot.normal.data(), 1);
-  const Real square = dot(normal, normal);
-  const std::int64_t pitch = state.layout.row_pitch();
-  Vector velocity{}, traction{};
-  Real sum_p = 0, sum_s = 0, sum_s_y = 0;
-  bool beside_void = false;
-  for (const int which : {0, 1}) {
-    const Side& side = slot.sides[std::size_t(which)];
-    const Real* const material = state.material.data() + side.b;
-    const Real b = material[0], zp = material[row_zp * material_pitch_],
-               zs = material[row_zs * material_pitch_];
-    if (zp == 0) {
-      beside_void = true;
-      continue;
-    }
-    const auto along = differences_along<D>(side.cells, state.fields.data(), pitch);
-    const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
-    // Moduli times dt/h.
-    const Real p = zp * zp * b, mu = zs * zs * b;
-    const Real zs_y = side.coupled ? material[zs_y_row_ * material_pitch_] : zs;
-    const Vector t = side.coupled
-                         ? traction_on_level_face<D>(material[row_coupling * material_pitch_] * b, mu,
-                                                     material[coupling_y_row_ * material_pitch_] * b,
-                                                     zs_y * zs_y * b, along)
-                         : traction_of_motion_along<D>(normal, p, mu, along);
-    const Vector t_p = (dot(normal, t) / square) * normal, t_s = t - t_p;
-    velocity = velocity + (-sign * side.j / square * (zp / p)) * t_p;
-    if (zs > 0) velocity = velocity + (-sign * side.j / square * (zs / mu)) * t_s;
-    if constexpr (D == 3)
-      if (zs > 0 && zs_y != zs) velocity.y += -sign * side.j * (1 / (zs_y * b) - zs / mu) * t_s.y;
-    traction = traction + (-sign / 2) * (zs > 0 ? t : t_p);
-    sum_p += zp, sum_s += zs, sum_s_y += zs_y;
-  }
-  const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
-  Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
-  velocities_[0][n] = v.z, velocities_[1][n] = v.x;
-  if (!beside_void) traction = Real(traction_share) * traction;
-  tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;
-  if constexpr (D == 3) {
-    if (sum_s_y != sum_s) v.y = (1 / sum_s_y) * velocity.y;
-    velocities_[2][n] = v.y, tractions_[2][n] = traction.y;
-  }
 }
 
 SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class InterfaceCorrections);

@@ -43,37 +43,32 @@ class InterfaceCorrections {
 
  private:
   static constexpr int lateral = 4 * (D - 1);
-  /// One side of the face: where velocities along it and its material stand, and its metric.
+  /// One side of the face: where velocities along it and its b stand.
   struct Side {
     std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0 of the fields
     std::int64_t b;                                        // of the material
-    Real j;
-    bool coupled;  // on a level face of an anisotropic medium, which its material describes
   };
-  /// What the differences along x, in 3-D also y, of the velocities of both sides of a face make of its
-  /// corrections beside anisotropic cells (theory.md (F14)).
-  struct Matrices {
-    static constexpr std::size_t differences = std::size_t(2) * (D - 1) * D;
-    /// [component][side, axis, component]
+  /// What the differences along x, in 3-D also y, of the velocities of one side of a face make of its
+  /// corrections (theory.md (F14)); of the traction over b.
+  static constexpr std::size_t differences = std::size_t(D - 1) * D;
+  struct OfSide {
+    /// [component][axis, component]
     using Matrix = std::array<std::array<Real, differences>, std::size_t(D)>;
     Matrix velocity{}, traction{};
+    bool operator==(const OfSide&) const = default;
   };
+  using Matrices = std::array<OfSide, 2>;
   struct Slot {
     std::int64_t row, column;
-    std::int32_t matrices = none;                 // its place in matrices_
-    std::array<Real, std::size_t(D - 1)> normal;  // horizontal components of N of the face
+    std::int32_t matrices;  // their place in matrices_
     std::array<Side, 2> sides;
   };
   std::size_t first_at(std::size_t row, std::int64_t column) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
-  std::int32_t add_matrices(const State<D, Real>& state, const Domain<D>& domain,
-                            const Metric<D, Real>& metric, const Index<D>& below,
-                            const RowVector<D, double>& normal);
-  void update_by_matrices(const State<D, Real>& state, std::size_t slot);
+  Matrices matrices_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& below);
 
-  std::int64_t padded_nx_ = 0, material_pitch_ = 0;
-  int zs_y_row_ = row_zs, coupling_y_row_ = row_coupling;  // of the plane of y and z
-  std::vector<Slot> slots_;                                // by row, then column
+  std::int64_t padded_nx_ = 0;
+  std::vector<Slot> slots_;  // by row, then column
   std::vector<Matrices> matrices_;
   std::vector<std::size_t> first_;  // of each row in slots_, and the end
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;

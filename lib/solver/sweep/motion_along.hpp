@@ -55,35 +55,6 @@ bool ends_at_free_surface(const Domain<D>& domain, const Index<D>& at, int axis,
   return p_waves(beyond) == 0;
 }
 
-/// The rate of the traction on a face with the vector N (its z is 1) of the stresses that motion along the
-/// face alone builds up: N . C : (e (x) dv/dx), with the differences dv/dx of velocity over a cell along x,
-/// in 3-D also y, and the moduli lambda + 2 mu and mu (theory.md (E11a)).
-template <int D, class Real>
-RowVector<D, Real> traction_of_motion_along(const RowVector<D, Real>& normal, Real p, Real mu,
-                                            const std::array<RowVector<D, Real>, std::size_t(D - 1)>& along) {
-  const Real lambda = p - 2 * mu;
-  if constexpr (D == 2) {
-    const Real dx = along[0].x, shear = mu * along[0].z;
-    return {lambda * dx + normal.x * shear, shear + normal.x * (p * dx)};
-  } else {
-    const Real dxx = along[0].x, dyy = along[1].y, dxy = mu * (along[0].y + along[1].x);
-    const Real xz = mu * along[0].z, yz = mu * along[1].z, trace = lambda * (dxx + dyy);
-    return {trace + normal.x * xz + normal.y * yz, xz + normal.x * (trace + 2 * mu * dxx) + normal.y * dxy,
-            yz + normal.x * dxy + normal.y * (trace + 2 * mu * dyy)};
-  }
-}
-
-/// The rate of this traction (traction_of_motion_along()) on a level face of an anisotropic medium: c13 and
-/// c55 stand in place of lambda and mu, along y c23 and c44 (theory.md (V4), (O4)).
-template <int D, class Real>
-RowVector<D, Real> traction_on_level_face(Real c13, Real c55, Real c23, Real c44,
-                                          const std::array<RowVector<D, Real>, std::size_t(D - 1)>& along) {
-  if constexpr (D == 2)
-    return {c13 * along[0].x, c55 * along[0].z};
-  else
-    return {c13 * along[0].x + c23 * along[1].y, c55 * along[0].z, c44 * along[1].z};
-}
-
 /// The part of a vector along N times one factor and the rest times another.
 template <int D, class Real>
 RowVector<D, Real> scaled(const RowVector<D, Real>& normal, Real along, Real across,

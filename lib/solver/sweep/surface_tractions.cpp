@@ -241,12 +241,13 @@ void SurfaceTractions<D, Real>::add(const Domain<D>& domain, const Index<D>& at,
   if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) return;
   const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
   const Shares shares = shares_of(zs * zs / (zp * zp), bent);
+  const auto c = elasticity_at(domain, at);
   Cell cell{number,
             place,
             b,
             {},
             Real(shares.tangential * zs * zs),
-            Real(domain.coupling_at_edge(at, axis_, axis_of_pair<D>(axis_, 1)) * zp * zp),
+            Real(c.voigt[std::size_t(axis_)][std::size_t(axis_of_pair<D>(axis_, 1))]),
             Real(shares.bend),
             surface_normal<D, Real>(domain, at, side_),
             0};
