@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/fit.hpp"
-#include "model/medium.hpp"
+#include "geology/fit.hpp"
+#include "rock/medium.hpp"
 
 namespace slipwave {
 

@@ -12,10 +12,10 @@
 #include "io/input_bytes.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
-#include "model/attenuation.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "output/snapshot_reader.hpp"
+#include "rock/attenuation.hpp"
 #include "trace_output.hpp"
 #include "traces/section.hpp"
 

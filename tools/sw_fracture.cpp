@@ -8,6 +8,7 @@
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "fracture_options.hpp"
+#include "geology/region.hpp"
 #include "grid/extent.hpp"
 #include "grid/longest_side.hpp"
 #include "io/netcdf_file.hpp"
@@ -20,7 +21,6 @@
 #include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
-#include "model/region.hpp"
 #include "model/single_fracture.hpp"
 #include "model/slip_regime.hpp"
 

@@ -4,11 +4,11 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "geology/layers.hpp"
+#include "geology/well_log.hpp"
 #include "io/output_file.hpp"
-#include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
-#include "model/property_range.hpp"
-#include "model/well_log.hpp"
+#include "rock/property_range.hpp"
 
 using namespace slipwave;
 

@@ -4,9 +4,9 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "geology/layers.hpp"
+#include "geology/marmousi.hpp"
 #include "io/output_file.hpp"
-#include "model/layers.hpp"
-#include "model/marmousi.hpp"
 #include "model/model_netcdf.hpp"
 #include "parallel/threads.hpp"
 

@@ -5,9 +5,9 @@
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
-#include "model/property.hpp"
 #include "plot/derived_property.hpp"
 #include "plot/file_picture.hpp"
+#include "rock/property.hpp"
 #include "trace_input.hpp"
 
 using namespace slipwave;

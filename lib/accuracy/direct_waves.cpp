@@ -8,7 +8,7 @@
 
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
-#include "model/anisotropy.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 namespace {

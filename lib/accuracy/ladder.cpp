@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
-#include "model/model_in_cells.hpp"
+#include "build/model_in_cells.hpp"
 #include "scene/bands.hpp"
 
 namespace slipwave {

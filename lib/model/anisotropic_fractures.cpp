@@ -5,9 +5,9 @@
 
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
-#include "model/anisotropy.hpp"
 #include "model/fracture.hpp"
 #include "model/parted_faces.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "model/anisotropy.hpp"
 #include "model/fracture.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 

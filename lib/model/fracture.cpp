@@ -11,10 +11,10 @@
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
-#include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/parted_faces.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
+#include "geology/region.hpp"
 #include "model/model.hpp"
-#include "model/region.hpp"
 
 namespace slipwave {
 

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
-#include "model/noise.hpp"
+#include "geology/noise.hpp"
 #include "model/planar_fracture.hpp"
 
 namespace slipwave {

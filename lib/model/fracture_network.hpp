@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/region.hpp"
+#include "geology/region.hpp"
 #include "model/single_fracture.hpp"
 
 namespace slipwave {

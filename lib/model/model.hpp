@@ -7,9 +7,9 @@
 
 #include "fracture/friction_policy.hpp"
 #include "fracture/linear_slip.hpp"
+#include "geology/geology.hpp"
 #include "grid/field.hpp"
-#include "model/geology.hpp"
-#include "model/medium.hpp"
+#include "rock/medium.hpp"
 
 namespace slipwave {
 
@@ -76,13 +76,6 @@ struct Model {
   Geology geology = {};
 
   const Grid<D>& grid() const { return medium.grid(); }
-};
-
-/// What `check` lets through beyond the usual.
-struct MediumLimits {
-  bool allow_auxetic = false;  // vs > vp/sqrt(2), that is lambda < 0
-  bool allow_slow = false;     // speeds and densities that no rock, soil or fluid has
-  bool in_space = false;       // a section of what becomes a model in 3-D: rock must be one in space
 };
 
 /// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values or others

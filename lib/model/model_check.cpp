@@ -4,14 +4,14 @@
 
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
-#include "model/anisotropy.hpp"
-#include "model/attenuation.hpp"
 #include "model/fracture.hpp"
 #include "model/model.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
-#include "model/property_range.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/attenuation.hpp"
+#include "rock/property_range.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {

@@ -7,13 +7,13 @@
 
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
+#include "geology/geology_netcdf.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_units.hpp"
 #include "io/output_file.hpp"
-#include "model/anisotropy.hpp"
-#include "model/geology_netcdf.hpp"
 #include "model/prestress.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 namespace {

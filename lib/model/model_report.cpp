@@ -9,13 +9,13 @@
 #include "base/instantiate.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
 #include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/single_fracture.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 namespace {

@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "geology/frame.hpp"
+#include "geology/polygon.hpp"
 #include "grid/slice.hpp"
 #include "model/fracture.hpp"
-#include "model/frame.hpp"
-#include "model/polygon.hpp"
 #include "model/spline_shares.hpp"
 
 namespace slipwave {

@@ -8,8 +8,8 @@
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "fracture/coulomb.hpp"
-#include "model/anisotropy.hpp"
 #include "model/parted_faces.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 namespace {

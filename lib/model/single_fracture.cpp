@@ -8,11 +8,11 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
+#include "geology/points_file.hpp"
 #include "grid/extent.hpp"
 #include "io/input_bytes.hpp"
 #include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
-#include "model/points_file.hpp"
 #include "model/spline_shares.hpp"
 
 namespace slipwave {

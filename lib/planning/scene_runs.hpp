@@ -9,7 +9,7 @@
 #include "accuracy/direct_waves.hpp"
 #include "accuracy/ladder.hpp"
 #include "base/progress.hpp"
-#include "model/model_in_cells.hpp"
+#include "build/model_in_cells.hpp"
 
 namespace slipwave {
 

@@ -10,10 +10,10 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
-#include "model/anisotropy.hpp"
-#include "model/elasticity.hpp"
-#include "model/tilted_mean.hpp"
 #include "plot/panel.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/elasticity.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave::plot {
 namespace {

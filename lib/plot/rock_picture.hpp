@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "model/attenuation.hpp"
-#include "model/averaging.hpp"
 #include "model/model.hpp"
 #include "plot/page.hpp"
 #include "plot/picture.hpp"
+#include "rock/attenuation.hpp"
+#include "rock/averaging.hpp"
 
 namespace slipwave::plot {
 

@@ -12,9 +12,9 @@
 #include "io/netcdf_units.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/planar_fracture.hpp"
-#include "model/property_range.hpp"
 #include "plot/derived_property.hpp"
 #include "plot/ticks.hpp"
+#include "rock/property_range.hpp"
 
 namespace slipwave::plot {
 namespace {

@@ -11,9 +11,9 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
-#include "model/coefficients.hpp"
 #include "model/parted_faces.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/coefficients.hpp"
+#include "rock/tilted_mean.hpp"
 #include "scene/subdomains.hpp"
 
 namespace slipwave {

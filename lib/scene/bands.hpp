@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/anisotropy.hpp"
-#include "model/coefficients.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/coefficients.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {

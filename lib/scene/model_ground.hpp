@@ -2,7 +2,7 @@
 #pragma once
 
 #include "acquisition/ground.hpp"
-#include "model/medium.hpp"
+#include "rock/medium.hpp"
 
 namespace slipwave {
 

@@ -7,9 +7,9 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
-#include "model/anisotropy.hpp"
-#include "model/plane_motion.hpp"
-#include "model/space_motion.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/plane_motion.hpp"
+#include "rock/space_motion.hpp"
 #include "scene/subdomains.hpp"
 
 namespace slipwave {

@@ -8,9 +8,9 @@
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "model/cluster_edge.hpp"
-#include "model/coefficients.hpp"
 #include "model/fracture.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/coefficients.hpp"
+#include "rock/tilted_mean.hpp"
 #include "scene/gauges.hpp"
 
 namespace slipwave {

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
-#include "model/coefficients.hpp"
+#include "rock/coefficients.hpp"
 
 namespace slipwave {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "accuracy/table.hpp"
 #include "base/error.hpp"
+#include "build/import.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/netcdf_probe.hpp"
 #include "memory_file.hpp"
-#include "model/import.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "model_file.hpp"

@@ -10,10 +10,10 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/parser.hpp"
+#include "geology/layers.hpp"
+#include "geology/points_file.hpp"
+#include "geology/region.hpp"
 #include "memory_file.hpp"
-#include "model/layers.hpp"
-#include "model/points_file.hpp"
-#include "model/region.hpp"
 #include "traces/sorting.hpp"
 #include "traces/time_window.hpp"
 

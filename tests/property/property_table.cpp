@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/property.hpp"
+#include "rock/property.hpp"
 
 namespace slipwave {
 
-// In place of lib/model/property_table.cpp: one row more.
+// In place of lib/rock/property_table.cpp: one row more.
 std::span<const PropertyRow> material_properties() {
   static const auto rows = [] {
     auto more = property_rows();

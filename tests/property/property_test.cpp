@@ -7,14 +7,14 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "build/import.hpp"
+#include "build/resample.hpp"
 #include "checkpoint/identity.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/averaging.hpp"
-#include "model/import.hpp"
 #include "model/model_netcdf.hpp"
-#include "model/resample.hpp"
 #include "plot/section.hpp"
+#include "rock/averaging.hpp"
 #include "scene/subdomains.hpp"
 #include "shell.hpp"
 

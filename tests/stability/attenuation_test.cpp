@@ -5,8 +5,8 @@
 #include <random>
 
 #include "lab.hpp"
-#include "model/anisotropy.hpp"
-#include "model/bulk_part.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/bulk_part.hpp"
 #include "solver/effect/attenuation.hpp"
 
 namespace slipwave {

@@ -11,7 +11,7 @@
 
 #include "fitted_medium.hpp"
 #include "lab.hpp"
-#include "model/coefficients.hpp"
+#include "rock/coefficients.hpp"
 
 namespace slipwave {
 

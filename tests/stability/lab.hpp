@@ -13,9 +13,9 @@
 
 #include "falling_energy.hpp"
 #include "media.hpp"
-#include "model/anisotropy.hpp"
-#include "model/tilted_mean.hpp"
 #include "parallel/threads.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/tilted_mean.hpp"
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"

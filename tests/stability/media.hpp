@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/anisotropy.hpp"
 #include "model/model.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave {
 

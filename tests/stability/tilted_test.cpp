@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
+#include "geology/layers.hpp"
 #include "lab.hpp"
-#include "model/layers.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <vector>
 
+#include "geology/marmousi.hpp"
 #include "lab.hpp"
-#include "model/marmousi.hpp"
 #include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
 #include "samples.hpp"

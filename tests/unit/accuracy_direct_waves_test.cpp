@@ -3,8 +3,8 @@
 
 #include "accuracy/direct_waves.hpp"
 #include "accuracy/ladder.hpp"
-#include "model/layers.hpp"
-#include "model/resample.hpp"
+#include "build/resample.hpp"
+#include "geology/layers.hpp"
 
 namespace slipwave {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/anisotropy.hpp"
+#include "rock/anisotropy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@
 #include <random>
 #include <string>
 
-#include "model/coefficients.hpp"
+#include "build/import.hpp"
+#include "geology/layers.hpp"
 #include "model/fracture.hpp"
-#include "model/import.hpp"
-#include "model/layers.hpp"
 #include "model/model.hpp"
 #include "model/model_report.hpp"
-#include "model/relations.hpp"
 #include "refusal.hpp"
+#include "rock/coefficients.hpp"
+#include "rock/relations.hpp"
 #include "scene/anisotropy_check.hpp"
 
 namespace slipwave {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/attenuation.hpp"
+#include "rock/attenuation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "model/averaging.hpp"
-#include "model/bulk_part.hpp"
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "model/model.hpp"
-#include "model/relations.hpp"
-#include "model/tilted_mean.hpp"
 #include "refusal.hpp"
+#include "rock/averaging.hpp"
+#include "rock/bulk_part.hpp"
+#include "rock/relations.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/averaging.hpp"
+#include "rock/averaging.hpp"
 
 #include <cmath>
 
-#include "model/cut_cell.hpp"
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
+#include "rock/cut_cell.hpp"
 
 using namespace slipwave;
 

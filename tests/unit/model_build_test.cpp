@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "base/parse.hpp"
+#include "geology/layers.hpp"
 #include "model/fracture.hpp"
-#include "model/layers.hpp"
 #include "model/prestress.hpp"
-#include "model/relations.hpp"
 #include "model/single_fracture.hpp"
 #include "model_cases.hpp"
+#include "rock/relations.hpp"
 
 using namespace slipwave;
 

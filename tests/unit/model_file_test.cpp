@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
+#include "build/import.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/import.hpp"
 #include "model/model_netcdf.hpp"
 #include "model_cases.hpp"
 

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "base/report.hpp"
+#include "build/import.hpp"
+#include "geology/layers.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/import.hpp"
-#include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "model_cases.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/fit.hpp"
+#include "geology/fit.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "geology/layers.hpp"
 #include "model/fracture.hpp"
-#include "model/layers.hpp"
 #include "model/prestress.hpp"
 #include "model_cases.hpp"
 

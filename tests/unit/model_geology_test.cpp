@@ -4,11 +4,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "build/model_in_cells.hpp"
+#include "build/resample.hpp"
+#include "geology/well_log.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/model_in_cells.hpp"
 #include "model/model_netcdf.hpp"
-#include "model/resample.hpp"
-#include "model/well_log.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
+#include "geology/horizon.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/horizon.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "geology/horizon.hpp"
+#include "geology/layers.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/horizon.hpp"
-#include "model/layers.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

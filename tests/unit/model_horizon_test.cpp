@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/horizon.hpp"
+#include "geology/horizon.hpp"
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

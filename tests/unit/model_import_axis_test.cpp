@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <map>
 
+#include "build/import.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
-#include "model/import.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/import_fit.hpp"
+#include "build/import_fit.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "model/import.hpp"
-#include "model/layers.hpp"
+#include "build/import.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "build/import.hpp"
+#include "geology/layers.hpp"
+#include "geology/marmousi.hpp"
 #include "io/input_bytes.hpp"
-#include "model/import.hpp"
-#include "model/layers.hpp"
-#include "model/marmousi.hpp"
 
 using namespace slipwave;
 

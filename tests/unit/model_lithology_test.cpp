@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/lithology.hpp"
+#include "geology/lithology.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "model/marmousi_strata.hpp"
+#include "geology/marmousi_strata.hpp"
 
 using namespace slipwave;
 using namespace slipwave::marmousi;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/marmousi.hpp"
+#include "geology/marmousi.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
 #include "parallel/threads.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/noise.hpp"
+#include "geology/noise.hpp"
 
 #include <gtest/gtest.h>
 

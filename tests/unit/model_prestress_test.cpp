@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "build/resample.hpp"
 #include "model/fracture.hpp"
-#include "model/resample.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/layers.hpp"
-#include "model/resample.hpp"
+#include "build/resample.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/region.hpp"
+#include "geology/region.hpp"
 
 #include <cmath>
 

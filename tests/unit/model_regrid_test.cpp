@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "model/resample.hpp"
+#include "build/resample.hpp"
 #include "model_cases.hpp"
 
 using namespace slipwave;

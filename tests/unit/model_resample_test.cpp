@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/resample.hpp"
+#include "build/resample.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-#include "model/anisotropy.hpp"
-#include "model/layers.hpp"
-#include "model/stiffness_input.hpp"
+#include "geology/layers.hpp"
 #include "refusal.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/stiffness_input.hpp"
 
 namespace slipwave {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/tilted_mean.hpp"
+#include "rock/tilted_mean.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
 #include "refusal.hpp"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 
-#include "model/input_units.hpp"
-#include "model/layers.hpp"
-#include "model/raw_shape.hpp"
+#include "build/raw_shape.hpp"
+#include "geology/layers.hpp"
 #include "model_cases.hpp"
+#include "rock/input_units.hpp"
 
 using namespace slipwave;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/well_log.hpp"
+#include "geology/well_log.hpp"
 
 #include <cmath>
 

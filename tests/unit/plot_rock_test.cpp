@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "plot/rock_picture.hpp"
 
 namespace slipwave::plot {

@@ -7,10 +7,10 @@
 #include "anisotropic_rocks.hpp"
 #include "continued.hpp"
 #include "fitted_scenes.hpp"
-#include "model/layers.hpp"
-#include "model/tilted_mean.hpp"
+#include "geology/layers.hpp"
 #include "parallel/threads.hpp"
 #include "plain_and_tiled.hpp"
+#include "rock/tilted_mean.hpp"
 #include "shared_out.hpp"
 
 namespace slipwave::solver {

@@ -6,10 +6,10 @@
 #include "anisotropic_rocks.hpp"
 #include "anisotropic_scene.hpp"
 #include "fitted_scenes.hpp"
-#include "model/layers.hpp"
-#include "model/tilted_mean.hpp"
+#include "geology/layers.hpp"
 #include "parallel/threads.hpp"
 #include "plain_and_tiled.hpp"
+#include "rock/tilted_mean.hpp"
 #include "solver/effect/slip.hpp"
 
 namespace slipwave::solver {

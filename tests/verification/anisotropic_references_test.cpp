@@ -6,8 +6,8 @@
 #include "anisotropic_scene.hpp"
 #include "anisotropic_space.hpp"
 #include "layer_stack.hpp"
-#include "model/bulk_part.hpp"
-#include "model/space_motion.hpp"
+#include "rock/bulk_part.hpp"
+#include "rock/space_motion.hpp"
 #include "solver/effect/attenuation.hpp"
 #include "solver/kernels/relaxation_kernels.hpp"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cube_shot.hpp"
-#include "model/anisotropy.hpp"
 #include "model/fracture.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave::solver {
 

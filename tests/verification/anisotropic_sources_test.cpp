@@ -8,9 +8,9 @@
 #include "base/parse.hpp"
 #include "elastic_disc.hpp"
 #include "fitted_scenes.hpp"
-#include "model/layers.hpp"
-#include "model/tilted_mean.hpp"
+#include "geology/layers.hpp"
 #include "parallel/threads.hpp"
+#include "rock/tilted_mean.hpp"
 #include "unit/model_cases.hpp"
 
 namespace slipwave::solver {

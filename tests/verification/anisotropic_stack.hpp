@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "complex_system.hpp"
-#include "model/anisotropy.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave::solver {
 

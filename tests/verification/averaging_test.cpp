@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/full_space.hpp"
+#include "geology/layers.hpp"
 #include "lab.hpp"
-#include "model/layers.hpp"
 #include "plane_interface.hpp"
 #include "solver/simulation.hpp"
 

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "build/resample.hpp"
 #include "cube.hpp"
 #include "model/fracture_network.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/planar_fracture.hpp"
-#include "model/resample.hpp"
 #include "model/single_fracture.hpp"
 #include "model/spline_shares.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <limits>
 
+#include "build/resample.hpp"
 #include "model/fracture.hpp"
-#include "model/resample.hpp"
 #include "scene_of_faces.hpp"
 #include "slip_layer.hpp"
 

@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "build/resample.hpp"
 #include "lab.hpp"
 #include "model/fracture_network.hpp"
 #include "model/model_netcdf.hpp"
-#include "model/resample.hpp"
 #include "model/single_fracture.hpp"
 
 namespace slipwave {

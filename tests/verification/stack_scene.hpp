@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "geology/layers.hpp"
 #include "lab.hpp"
 #include "layer_stack.hpp"
-#include "model/layers.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave::solver {

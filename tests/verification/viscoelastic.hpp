@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "accuracy/full_space.hpp"
-#include "model/attenuation.hpp"
+#include "rock/attenuation.hpp"
 
 namespace slipwave::solver {
 

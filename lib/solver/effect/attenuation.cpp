@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/instantiate.hpp"
-#include "model/bulk_part.hpp"
-#include "model/tilted_mean.hpp"
 #include "parallel/threads.hpp"
+#include "rock/bulk_part.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave::solver {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/instantiate.hpp"
-#include "model/anisotropy.hpp"
-#include "model/coefficients.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/coefficients.hpp"
+#include "rock/tilted_mean.hpp"
 #include "scene/plane_wave.hpp"
 #include "solver/effect/incident_pml.hpp"
 #include "solver/effect/layered_wave.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/instantiate.hpp"
-#include "model/plane_motion.hpp"
+#include "rock/plane_motion.hpp"
 
 namespace slipwave::solver {
 namespace {

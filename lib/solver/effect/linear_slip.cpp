@@ -9,9 +9,9 @@
 
 #include "base/instantiate.hpp"
 #include "base/small_matrix.hpp"
-#include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/single_fracture.hpp"
+#include "rock/anisotropy.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/instantiate.hpp"
-#include "model/anisotropy.hpp"
-#include "model/plane_motion.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/plane_motion.hpp"
 
 namespace slipwave::solver {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/instantiate.hpp"
 #include "base/memory.hpp"
-#include "model/anisotropy.hpp"
+#include "rock/anisotropy.hpp"
 #include "scene/splitting.hpp"
 
 namespace slipwave::solver {

@@ -9,8 +9,8 @@
 
 #include "fracture/friction_laws.hpp"
 #include "fracture/joint_slip.hpp"
-#include "model/anisotropy.hpp"
-#include "model/elasticity.hpp"
+#include "rock/anisotropy.hpp"
+#include "rock/elasticity.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/fracture_cells.hpp"
 #include "solver/effect/held_slip.hpp"

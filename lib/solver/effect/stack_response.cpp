@@ -6,7 +6,7 @@
 
 #include "base/band_system.hpp"
 #include "base/instantiate.hpp"
-#include "model/space_motion.hpp"
+#include "rock/space_motion.hpp"
 
 namespace slipwave::solver {
 namespace {

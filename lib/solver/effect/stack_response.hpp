@@ -5,7 +5,7 @@
 #include <complex>
 #include <vector>
 
-#include "model/elasticity.hpp"
+#include "rock/elasticity.hpp"
 #include "scene/edges.hpp"
 #include "scene/plane_wave.hpp"
 #include "solver/effect/stack_series.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/instantiate.hpp"
-#include "model/space_motion.hpp"
+#include "rock/space_motion.hpp"
 #include "solver/effect/layered_wave.hpp"
 
 namespace slipwave::solver {

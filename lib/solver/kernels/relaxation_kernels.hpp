@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "model/attenuation.hpp"
+#include "rock/attenuation.hpp"
 
 namespace slipwave::solver {
 

@@ -11,8 +11,8 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "grid/tensor.hpp"
-#include "model/coefficients.hpp"
 #include "parallel/threads.hpp"
+#include "rock/coefficients.hpp"
 #include "scene/subdomains.hpp"
 
 namespace slipwave::solver {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "model/elasticity.hpp"
 #include "model/model.hpp"
 #include "model/parted_faces.hpp"
-#include "model/tilted_mean.hpp"
+#include "rock/elasticity.hpp"
+#include "rock/tilted_mean.hpp"
 #include "scene/edges.hpp"
 #include "scene/subdomain.hpp"
 #include "solver/sweep/interface_stencils.hpp"

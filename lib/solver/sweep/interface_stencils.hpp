@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "grid/field.hpp"
-#include "model/coefficients.hpp"
+#include "rock/coefficients.hpp"
 #include "scene/edges.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/sweep/by_line.hpp"

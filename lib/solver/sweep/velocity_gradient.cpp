@@ -6,7 +6,7 @@
 
 #include "acquisition/interpolation.hpp"
 #include "base/instantiate.hpp"
-#include "model/anisotropy.hpp"
+#include "rock/anisotropy.hpp"
 
 namespace slipwave::solver {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "model/layers.hpp"
+#include "geology/layers.hpp"
 #include "scene/scene.hpp"
 #include "solver/simulation.hpp"
 

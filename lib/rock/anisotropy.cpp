@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rock/anisotropy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/instantiate.hpp"
+
+namespace slipwave {
+namespace {
+
+/// Directions from the vertical to the horizontal among which the largest and smallest are searched.
+constexpr int directions = 180;
+/// Directions along both angles of an octant among which the largest and smallest are searched in 3-D.
+constexpr int directions_in_space = 24;
+
+/// Calls what(speeds) for directions of a quadrant, in 3-D of an octant: upright rock is alike in all of
+/// them.
+template <int D, class What>
+void each_direction(const Material& material, const What& what) {
+  const auto c = upright_elasticity<D>(material);
+  constexpr double right_angle = std::numbers::pi / 2;
+  if constexpr (D == 2) {
+    for (int n = 0; n <= directions; ++n) {
+      const double angle = n * right_angle / directions;
+      what(phase_speeds<2>(c, material.rho, {std::sin(angle), std::cos(angle)}));
+    }
+  } else {
+    for (int n = 0; n <= directions_in_space; ++n)
+      for (int k = 0; k <= directions_in_space; ++k) {
+        const double angle = n * right_angle / directions_in_space,
+                     azimuth = k * right_angle / directions_in_space;
+        what(phase_speeds<3>(
+            c, material.rho,
+            {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle)}));
+      }
+  }
+}
+
+}  // namespace
+
+template <int D>
+std::int64_t anisotropic_cells(const Medium<D>& medium) {
+  if (!medium.has(Property::epsilon) && !medium.has(Property::delta) &&
+      (D == 2 || !medium.has(Property::gamma)))
+    return 0;
+  std::int64_t count = 0;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) count += is_anisotropic(medium, cell);
+  return count;
+}
+
+template <int D>
+void complete_anisotropy(Medium<D>& medium) {
+  constexpr std::array plane = {Property::epsilon, Property::delta};
+  constexpr std::array in_space = {Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2};
+  const auto any = [&](const auto& properties) {
+    return std::any_of(properties.begin(), properties.end(),
+                       [&](Property property) { return medium.has(property); });
+  };
+  const auto complete = [&](Property property, const Field<D>& with) {
+    if (!medium.has(property)) medium[property] = with;
+  };
+  const bool orthorhombic = any(in_space);
+  const bool wanted = any(plane) || orthorhombic || (D == 3 && medium.has(Property::gamma));
+  for (const auto property : plane)
+    if (wanted) complete(property, Field<D>(medium.grid()));
+  if (wanted && (D == 3 || orthorhombic)) complete(Property::gamma, Field<D>(medium.grid()));
+  if (!orthorhombic) return;
+  complete(Property::epsilon1, medium[Property::epsilon]);
+  complete(Property::delta1, medium[Property::delta]);
+  complete(Property::delta3, Field<D>(medium.grid()));
+  complete(Property::gamma2, medium[Property::gamma]);
+}
+
+template <int D>
+bool any_orthorhombic(const Medium<D>& medium) {
+  for (std::size_t cell = 0; D == 3 && medium.has(Property::epsilon1) && cell < medium.vp.size(); ++cell)
+    if (is_orthorhombic(medium, cell)) return true;
+  return false;
+}
+
+template <int D>
+bool any_tilted_axes(const Medium<D>& medium) {
+  if (!medium.has(Property::tilt) && !medium.has(Property::azimuth) && !medium.has(Property::rotation))
+    return false;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (has_tilted_axis(medium, cell)) return true;
+  return false;
+}
+
+template <>
+PlaneSpeeds slowest_speeds<2>(const Material& material) {
+  PlaneSpeeds slowest = {material.vp, material.vs};
+  if (!material.is_anisotropic()) return slowest;
+  each_direction<2>(material, [&](const Point<2>& speeds) {
+    slowest = {std::min(slowest.p, speeds[0]), std::min(slowest.s, speeds[1])};
+  });
+  return slowest;
+}
+
+template <>
+PlaneSpeeds slowest_speeds<3>(const Material& material) {
+  auto slowest = slowest_speeds<2>(material);
+  const auto c = upright_elasticity<3>(material);
+  slowest.s = std::min({slowest.s, std::sqrt(c(6, 6) / material.rho), std::sqrt(c(4, 4) / material.rho)});
+  if (!material.orthorhombic) return slowest;
+  each_direction<3>(material, [&](const Point<3>& speeds) {
+    slowest = {std::min(slowest.p, speeds[0]), std::min(slowest.s, speeds[2])};
+  });
+  return slowest;
+}
+
+template <>
+double fastest_p_speed<2>(const Material& material) {
+  double fastest = material.vp;
+  if (!material.is_anisotropic()) return fastest;
+  each_direction<2>(material, [&](const Point<2>& speeds) { fastest = std::max(fastest, speeds[0]); });
+  return fastest;
+}
+
+template <>
+double fastest_p_speed<3>(const Material& material) {
+  double fastest = fastest_p_speed<2>(material);
+  if (!material.orthorhombic) return fastest;
+  each_direction<3>(material, [&](const Point<3>& speeds) { fastest = std::max(fastest, speeds[0]); });
+  return fastest;
+}
+
+double fastest_p_speed_at_most(const Material& material) {
+  return material.vp * std::sqrt(1 + 2 * std::max({material.epsilon, material.delta, 0.}));
+}
+
+double fastest_along_grid(const Material& material) {
+  const auto c = elasticity_of<3>(material);
+  double fastest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    fastest = std::max(fastest, phase_speeds<3>(c, material.rho, unit_vector<3>(axis))[0]);
+  return fastest;
+}
+
+double fastest_in_space(const Material& material) {
+  // About its own axes rock is what it is about any, and alike in all octants.
+  const auto c = upright_elasticity<3>(material);
+  if (!material.orthorhombic)
+    return std::max(fastest_p_speed_at_most(material), std::sqrt(c(6, 6) / material.rho));
+  constexpr int most_turns = 200;
+  double largest = 0;
+  for (int n = 1; n < 8; ++n) {
+    Point<3> direction = {double(n & 1), double((n >> 1) & 1), double((n >> 2) & 1)};
+    const double size = std::sqrt(dot_product(direction, direction));
+    for (auto& part : direction) part /= size;
+    // C_ijkl n_i u_j n_k u_l is the same with n and u exchanged, so it never falls from turn to turn.
+    double modulus = 0;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const auto waves = waves_along<3>(c, direction);
+      const bool settled = waves.values[0] < modulus * (1 + 1e-10);
+      modulus = std::max(modulus, waves.values[0]), direction = waves.vectors[0];
+      if (settled) break;
+    }
+    largest = std::max(largest, modulus);
+  }
+  return std::sqrt(largest / material.rho);
+}
+
+template <int D>
+Medium<D> in_slowest_directions(const Medium<D>& medium) {
+  Medium<D> slowest = medium;
+  for (const auto property :
+       {Property::epsilon, Property::delta, Property::tilt, Property::gamma, Property::epsilon1,
+        Property::delta1, Property::delta3, Property::gamma2, Property::azimuth, Property::rotation})
+    if (slowest.has(property)) slowest[property] = {};
+  // Speeds go over all directions; most cells are like the one before them.
+  Material last;
+  PlaneSpeeds of_last;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    const auto material = material_of(medium, cell);
+    if (!(D == 3 ? material.is_anisotropic_in_space() : material.is_anisotropic())) continue;
+    if (!(material == last)) of_last = slowest_speeds<D>(last = material);
+    slowest.vp[cell] = float(of_last.p);
+    slowest.vs[cell] = float(of_last.s);
+  }
+  return slowest;
+}
+
+namespace {
+
+/// A parameter of fluid that is not 0, or nothing.
+std::optional<AnisotropyFault> fault_of_fluid(const Material& of) {
+  const auto extra = of.orthorhombic.value_or(Orthorhombic{});
+  const std::pair<Property, double> all[] = {
+      {Property::epsilon, of.epsilon},  {Property::delta, of.delta},
+      {Property::gamma, of.gamma},      {Property::epsilon1, extra.epsilon1},
+      {Property::delta1, extra.delta1}, {Property::delta3, extra.delta3},
+      {Property::gamma2, extra.gamma2}};
+  for (const auto& [property, value] : all)
+    if (value != 0)
+      return AnisotropyFault{
+          property, "is " + shown(value, 6) +
+                        ", expected 0 in fluid, which is isotropic; set it to 0 or vs above 0 there"};
+  return {};
+}
+
+const char* const gives_energy = "or the rock would give energy; ";
+
+/// What keeps strains in space from costing energy; those in the plane of x and z do.
+std::optional<AnisotropyFault> fault_in_space(const Material& of) {
+  const auto above = [](Property property, double value, double least, const std::string& rest) {
+    return AnisotropyFault{property, "is " + shown(value, 6) + ", expected above " + shown(least, 4) + rest};
+  };
+  if (!(of.gamma > -0.5)) return above(Property::gamma, of.gamma, -0.5, ": c66 must be more than 0");
+  const auto c = upright_elasticity<3>(of);
+  const double c66 = c(6, 6);
+  const auto most_gamma = [&](double most_c66) {
+    return AnisotropyFault{Property::gamma, "is " + shown(of.gamma, 6) + ", expected below " +
+                                                shown((most_c66 / c(5, 5) - 1) / 2, 4) +
+                                                " with an epsilon of " + shown(of.epsilon, 6)};
+  };
+  if (!of.orthorhombic) {
+    const double most = c(1, 1) - c(1, 3) * c(1, 3) / c(3, 3);
+    if (c66 < most) return {};
+    auto fault = most_gamma(most);
+    fault.text += " and a delta of " + shown(of.delta, 6) + ": (c11 - c66) c33 must be more than c13^2, " +
+                  gives_energy + "lower gamma or raise epsilon";
+    return fault;
+  }
+  const auto& extra = *of.orthorhombic;
+  if (!(c66 < c(1, 1))) {
+    auto fault = most_gamma(c(1, 1));
+    fault.text += ": c66 must be less than c11; lower gamma";
+    return fault;
+  }
+  const double c44 = c(4, 4);
+  if (!(extra.gamma2 > -0.5) || !(c44 < c(3, 3)))
+    return above(Property::gamma2, extra.gamma2, extra.gamma2 > -0.5 ? (c66 / c(3, 3) - 1) / 2 : -0.5,
+                 ": c44 must be more than 0 and less than c33; raise gamma2");
+  const double least_delta1 = (c44 / c(3, 3) - 1) / 2, least_delta3 = (c66 / c(1, 1) - 1) / 2;
+  if (!(extra.delta1 >= least_delta1))
+    return above(Property::delta1, extra.delta1, least_delta1, ": (c23 + c44)^2 must not be below 0");
+  if (!(extra.delta3 >= least_delta3))
+    return above(Property::delta3, extra.delta3, least_delta3, ": (c12 + c66)^2 must not be below 0");
+  const double least1 = (c(2, 3) * c(2, 3) / (c(3, 3) * c(3, 3)) - 1) / 2;
+  if (!(extra.epsilon1 > least1))
+    return above(Property::epsilon1, extra.epsilon1, least1,
+                 std::string(": c22 c33 must be more than c23^2, ") + gives_energy + "raise epsilon1");
+  if (is_positive(c.voigt)) return {};
+  return AnisotropyFault{Property::delta3, "is " + shown(extra.delta3, 6) +
+                                               ", expected less with these epsilon and epsilon1: the "
+                                               "determinant of c11 to c33 must be above 0, " +
+                                               gives_energy + "lower delta3 or raise epsilon1"};
+}
+
+}  // namespace
+
+namespace {
+
+/// Angles of what has no axes, and those that turn them out of a plane.
+std::optional<AnisotropyFault> fault_of_axes(const Material& of, bool in_space) {
+  const bool has_axes = in_space ? of.is_anisotropic_in_space() : of.is_anisotropic();
+  const std::pair<Property, double> all[] = {
+      {Property::tilt, of.tilt}, {Property::azimuth, of.azimuth}, {Property::rotation, of.rotation}};
+  for (const auto& [property, value] : all) {
+    if (value == 0) continue;
+    const std::string is = "is " + shown(value, 6) + ", expected 0 ";
+    if (!in_space && property != Property::tilt)
+      return AnisotropyFault{property,
+                             is + "in 2-D, where beds deepen along x; turn the section, or leave the " +
+                                 row_of(property).name + " out"};
+    if (!has_axes)
+      return AnisotropyFault{property,
+                             is + "where epsilon" + (in_space ? ", delta and gamma" : " and delta") +
+                                 " are 0: isotropic rock has no axis; set one of them, or leave the " +
+                                 row_of(property).name + " out there"};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_space) {
+  const double vp = material.vp, vs = material.vs, rho = material.rho;
+  const double epsilon = material.epsilon, delta = material.delta;
+  if (auto fault = fault_of_axes(material, in_space)) return fault;
+  if (!material.is_anisotropic_in_space() || rho == 0) return {};
+  if (vs == 0) return fault_of_fluid(material);
+  // (c13 + c55)^2 must not be negative, and c11 c33 must be more than c13^2.
+  const double ratio = vs * vs / (vp * vp), least_delta = (ratio - 1) / 2;
+  if (!(delta >= least_delta))
+    return AnisotropyFault{Property::delta,
+                           "is " + shown(delta, 6) + ", expected at least -(1 - (vs/vp)^2)/2 = " +
+                               shown(least_delta, 4) + " with vp " + shown(vp) + " and vs " + shown(vs)};
+  const auto c = upright_elasticity<2>(material);
+  const double share = c(1, 3) / c(3, 3), least = (share * share - 1) / 2;
+  if (!(epsilon > least))
+    return AnisotropyFault{Property::epsilon,
+                           "is " + shown(epsilon, 6) + ", expected above " + shown(least, 4) +
+                               " with a delta of " + shown(delta, 6) +
+                               ": c11 c33 must be more than c13^2, or the rock would give " +
+                               "energy; raise epsilon or lower delta"};
+  return in_space ? fault_in_space(material) : std::nullopt;
+}
+
+SLIPWAVE_INSTANTIATE_D(FUNCTION, any_orthorhombic);
+
+SLIPWAVE_INSTANTIATE_D(FUNCTION, any_tilted_axes);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, anisotropic_cells);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, complete_anisotropy);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, in_slowest_directions);
+
+}  // namespace slipwave
