@@ -29,10 +29,10 @@ void check_inside(const std::string& what, const Point<D>& point, const Grid<D>&
   for (int axis = 0; axis < D; ++axis) {
     const std::string name(1, axis_names<D>()[axis]), separator = axis == 0 ? "" : " ";
     place += separator + name + "=" + shown(point[axis], digits);
-    const bool bent = axis == D - 1 && grid.rows;
-    const auto depths = bent ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
-    extent += separator + name + "=" + shown(depths[0], bent ? of_depths : digits) + ".." +
-              shown(depths[1], bent ? of_depths : digits) + (bent ? " there" : "");
+    const bool curvilinear = axis == D - 1 && grid.rows;
+    const auto depths = curvilinear ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
+    extent += separator + name + "=" + shown(depths[0], curvilinear ? of_depths : digits) + ".." +
+              shown(depths[1], curvilinear ? of_depths : digits) + (curvilinear ? " there" : "");
   }
   bool beside = false;
   for (int axis = 0; axis < D - 1; ++axis)

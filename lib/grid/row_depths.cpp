@@ -150,7 +150,7 @@ bool RowDepths<D>::row_is_level(std::int64_t row) const {
 }
 
 template <int D>
-std::optional<std::int64_t> RowDepths<D>::first_bent_row() const {
+std::optional<std::int64_t> RowDepths<D>::first_curvilinear_row() const {
   for (std::int64_t row = 0; row <= cells_[D - 1]; ++row)
     if (!row_is_level(row)) return row;
   return std::nullopt;

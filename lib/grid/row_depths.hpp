@@ -64,7 +64,7 @@ class RowDepths {
   /// Whether a row of corners is level.
   bool row_is_level(std::int64_t row_of_corners) const;
   /// The first row of corners that is not level.
-  std::optional<std::int64_t> first_bent_row() const;
+  std::optional<std::int64_t> first_curvilinear_row() const;
   /// Least and largest height of a cell at its centre, m.
   std::array<double, 2> heights() const;
 

@@ -68,14 +68,15 @@ Slice parse_slice(std::string_view text) {
 }
 
 CellLayer layer_on(const Grid<3>& grid, const Slice& slice) {
-  const bool bent = slice.axis == 2 && grid.rows;
-  const auto [low, high] =
-      bent ? depth_extent(grid) : std::array{grid.origin_m[std::size_t(slice.axis)], grid.end(slice.axis)};
+  const bool curvilinear = slice.axis == 2 && grid.rows;
+  const auto [low, high] = curvilinear
+                               ? depth_extent(grid)
+                               : std::array{grid.origin_m[std::size_t(slice.axis)], grid.end(slice.axis)};
   if (!(slice.at_m >= low && slice.at_m <= high))
     throw Error("found " + std::string(1, axis_names<3>()[std::size_t(slice.axis)]) + "=" +
                     shown(slice.at_m) + ", expected it from " + shown(low) + " to " + shown(high),
                 ErrorKind::usage);
-  if (bent) return {2, 0, slice.at_m};
+  if (curvilinear) return {2, 0, slice.at_m};
   const auto cell = std::int64_t(std::floor((slice.at_m - low) / grid.spacing_m));
   return {slice.axis, std::min(cell, grid.shape[std::size_t(slice.axis)] - 1)};
 }

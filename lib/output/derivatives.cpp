@@ -44,7 +44,7 @@ double slope_at(const Grid<D>& grid, const Index<D>& cell, int axis, const Value
 /// By the chain rule, all with the same differences, so that linear fields have exact derivatives: with
 /// z = z(xi, zeta), d/dz = (d/dzeta)/(dz/dzeta) and d/dx = d/dxi - dz/dxi d/dz (theory.md (F1)).
 template <int D>
-Field<D> bent_derivative(const Field<D>& field, int axis) {
+Field<D> curvilinear_derivative(const Field<D>& field, int axis) {
   const auto& grid = field.grid();
   const auto value = [&](const Index<D>& at) { return double(field(at)); };
   const auto depth = [&](const Index<D>& at) { return grid.depth(at); };
@@ -64,7 +64,7 @@ Field<D> bent_derivative(const Field<D>& field, int axis) {
 template <int D>
 Field<D> derivative(const Field<D>& field, int axis) {
   const auto& grid = field.grid();
-  if (grid.rows) return bent_derivative(field, axis);
+  if (grid.rows) return curvilinear_derivative(field, axis);
   std::int64_t stride = 1;
   for (int a = 0; a < axis; ++a) stride *= grid.shape[std::size_t(a)];
   const std::int64_t length = grid.shape[std::size_t(axis)];

@@ -275,7 +275,8 @@ GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid) 
     return pixels;
   }
   const double pixel_pt = plot.width / width;
-  pixels.bent_rows = [=, x = panel.x_scale(), y = panel.y_scale()](std::size_t pixel, std::int64_t column) {
+  pixels.curvilinear_rows = [=, x = panel.x_scale(), y = panel.y_scale()](std::size_t pixel,
+                                                                          std::int64_t column) {
     const double middle_m = x.value(plot.x + (double(pixel) + 0.5) * pixel_pt);
     return cells_of_pixels(y, plot.y, plot.bottom(), height, faces_at(grid, column, middle_m));
   };
@@ -285,8 +286,8 @@ GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid) 
 namespace {
 
 /// Columns of a fitted grid interpolated along their rows, and each column of pixels between its rows.
-Raster interpolated_bent(const Field<2>& field, const Panel& panel, const std::vector<Mix>& columns,
-                         int height, Take take) {
+Raster interpolated_curvilinear(const Field<2>& field, const Panel& panel, const std::vector<Mix>& columns,
+                                int height, Take take) {
   const auto& grid = field.grid();
   const Rect& plot = panel.plot();
   Raster raster{int(columns.size()), height, {}};
@@ -323,14 +324,14 @@ Raster shown_values(const Field<2>& field, const Panel& panel, const Page& page,
     return mixes_of_pixels(scale, begin, end, pixels, edges, middles_of(edges));
   };
   const auto columns = mixes(panel.x_scale(), plot.x, plot.right(), width, 0);
-  if (grid.rows) return interpolated_bent(field, panel, columns, height, take);
+  if (grid.rows) return interpolated_curvilinear(field, panel, columns, height, take);
   const auto rows = mixes(panel.y_scale(), plot.y, plot.bottom(), height, 1);
   return interpolated([&](std::int64_t k) { return field.line(k).data(); }, columns, rows, take);
 }
 
 template <class Value>
 Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take) {
-  if (!pixels.bent_rows)
+  if (!pixels.curvilinear_rows)
     return reduced<Value>([&](std::int64_t k) { return field.line(k).data(); }, pixels.columns, pixels.rows,
                           take);
   Raster raster{int(pixels.columns.size()), int(pixels.height), {}};
@@ -339,7 +340,7 @@ Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take
   for (std::size_t pixel = 0; pixel < pixels.columns.size(); ++pixel) {
     std::fill(column.begin(), column.end(), Reduction(take));
     for (auto i = pixels.columns[pixel].first; i < pixels.columns[pixel].last; ++i) {
-      const auto rows = pixels.bent_rows(pixel, i);
+      const auto rows = pixels.curvilinear_rows(pixel, i);
       for (std::size_t n = 0; n < rows.size(); ++n)
         for (auto k = rows[n].first; k < rows[n].last; ++k) column[n].add(float(field({i, k})));
     }

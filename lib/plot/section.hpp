@@ -67,12 +67,12 @@ struct GridPixels {
   std::vector<Cells> columns, rows;
   /// Replaces `rows` in a fitted grid: what a column of pixels shows of a column of cells. Rows are where
   /// they are in the middle of the pixels.
-  std::function<std::vector<Cells>(std::size_t pixel, std::int64_t column)> bent_rows = {};
+  std::function<std::vector<Cells>(std::size_t pixel, std::int64_t column)> curvilinear_rows = {};
   std::size_t height = 0;  // pixels
   /// Whether a pixel has cells or, of a fitted grid, lies above or below cells.
   bool within(std::size_t pixel) const {
     const Cells& across = columns[pixel % columns.size()];
-    if (bent_rows || across.first == across.last) return across.first < across.last;
+    if (curvilinear_rows || across.first == across.last) return across.first < across.last;
     const Cells& down = rows[pixel / columns.size()];
     return down.first < down.last;
   }

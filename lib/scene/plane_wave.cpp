@@ -175,7 +175,7 @@ void check_layers(const Scene<D>& scene, const PlaneWaveWay<D>& way) {
 template <int D>
 void check_edges(const Scene<D>& scene, const PlaneWave<D>& wave) {
   constexpr int z = D - 1;
-  if (const auto& rows = scene.model.grid().rows; rows && rows->first_bent_row())
+  if (const auto& rows = scene.model.grid().rows; rows && rows->first_curvilinear_row())
     throw Error(
         "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
         "model with --fit none");

@@ -253,9 +253,9 @@ void check_monotone(const Scene<D>& scene) {
                     ", expected --time-order 2: sweeps back in time have no criterion of monotonicity",
                 ErrorKind::usage);
   const auto& rows = scene.model.grid().rows;
-  if (const auto bent = rows ? rows->first_bent_row() : std::nullopt)
+  if (const auto curvilinear = rows ? rows->first_curvilinear_row() : std::nullopt)
     throw Error(
-        "found --monotone in a model whose row " + std::to_string(*bent) +
+        "found --monotone in a model whose row " + std::to_string(*curvilinear) +
             " follows a horizon, expected level rows; build the model with --fit none --average isotropic",
         ErrorKind::usage);
   if (scene.subdomain.tilted_means || tilted_means(scene.model.medium) > 0)

@@ -23,10 +23,11 @@ struct Subdomain {
   bool other_cells = false;
   /// Whether rows beyond such a face, before and behind its rows, are as high as its own.
   std::array<bool, 2> own_heights{};
-  bool slips = false;         // whether anything slips in any part
-  bool shear = false;         // whether any part has shear stress: solid cells or bent rows
-  bool anisotropic = false;   // whether any part has anisotropic cells
-  bool tilted = false;        // whether any part has rock whose axes are turned, in 3-D also any in bent rows
+  bool slips = false;        // whether anything slips in any part
+  bool shear = false;        // whether any part has shear stress: solid cells or curvilinear rows
+  bool anisotropic = false;  // whether any part has anisotropic cells
+  bool tilted =
+      false;  // whether any part has rock whose axes are turned, in 3-D also any in curvilinear rows
   bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
   bool has_void = false;      // whether any part has void cells
   /// The askew_sets() of all parts; set with several processes only.

@@ -28,7 +28,7 @@ constexpr std::int64_t beside_refreshed = std::int64_t(2) * max_reach;
 
 /// Whether stencils of a row reach corners of cells that are not level.
 template <int D>
-bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
+bool near_curvilinear_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
   const std::int64_t last = grid.rows->cells()[D - 1];
   for (auto n = row - near; n <= row + near + 1; ++n)
     if (!grid.rows->row_is_level(std::clamp<std::int64_t>(n, 0, last))) return true;
@@ -49,7 +49,7 @@ Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held, std::
 
 template <int D>
 bool has_shear(const Medium<D>& medium) {
-  if (const auto& rows = medium.grid().rows; rows && rows->first_bent_row()) return true;
+  if (const auto& rows = medium.grid().rows; rows && rows->first_curvilinear_row()) return true;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (medium.is_solid(cell)) return true;
   return false;
@@ -61,7 +61,7 @@ bool couples_pairs(const Medium<D>& medium, int order) {
   const auto& grid = medium.grid();
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
   for (std::int64_t row = 0; D == 3 && grid.rows && row < grid.shape[D - 1]; ++row) {
-    if (!near_bent_rows(grid, row + grid.first[D - 1], nearness_of(order))) continue;
+    if (!near_curvilinear_rows(grid, row + grid.first[D - 1], nearness_of(order))) continue;
     for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
       if (is_anisotropic(medium, cell)) return true;
   }

@@ -16,7 +16,7 @@ namespace slipwave {
 template <int D>
 std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& medium, const Subdomain& part);
 
-/// Whether there is shear stress in a model: in solid cells, and in fluid whose rows are bent.
+/// Whether there is shear stress in a model: in solid cells, and in fluid whose rows are curvilinear.
 template <int D>
 bool has_shear(const Medium<D>& medium);
 /// Whether an edge of the first `axes` axes absorbs.

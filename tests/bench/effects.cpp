@@ -27,9 +27,9 @@ void register_effects() {
   };
   add("none", [](Case&) {});
   add("none, every cell another material", [](Case& what) { what.variety = Variety::random; });
-  add("all rows bent", [](Case& what) { what.bent = true; });
+  add("all rows bent", [](Case& what) { what.curvilinear = true; });
   add("all rows bent, every cell another material", [](Case& what) {
-    what.bent = true;
+    what.curvilinear = true;
     what.variety = Variety::random;
   });
   add("free surface", [](Case& what) { what.top = EdgeLaw::free; });

@@ -54,7 +54,7 @@ const char* name_of(Variety variety) {
 Scene<2> make_scene(const Case& what) {
   Scene<2> scene;
   Grid<2> grid{{what.nx, what.nz}, spacing_m, {0, 0}};
-  if (what.bent) grid.rows = rolling_rows(grid.shape);
+  if (what.curvilinear) grid.rows = rolling_rows(grid.shape);
   scene.model.medium = {Field<2>(grid), Field<2>(grid), Field<2>(grid)};
   fill(scene.model.medium, what);
   const double width = double(what.nx) * spacing_m, depth = double(what.nz) * spacing_m;

@@ -26,7 +26,8 @@ struct Case {
       false;  // leave out cells that no wave has reached or that affect no receiver any more
   EdgeLaw top = EdgeLaw::mirror, others = EdgeLaw::mirror;
   bool fluid = false;
-  bool bent = false;  // rows of a fitted grid that all are bent, but for the first and the last face
+  bool curvilinear =
+      false;  // rows of a fitted grid that all are curvilinear, but for the first and the last face
   bool plane_wave = false;
   bool at_the_surface = false;  // source and receivers, else in the middle and above it
   double attenuating = 0;       // a quality factor of S waves in all cells, twice that of P waves; 0: elastic

@@ -136,15 +136,15 @@ want() {
         need("update<true, 3, true, true, " real ">", 21); need("update<false, 3, true, true, " real ">", 29)
         # Of bent rows, by dimension: both pairs or all components, of order 5.
         for (d = 2; d <= 3; ++d) {
-          need("reconstruct_bent_along<5, " d ", " real ">", 40 * d)
-          need("solve_bent_along<" d ", " real ">", 10 * d)
-          need("update_bent_along<" d ", " real ">", 8 * d)
-          need("reconstruct_bent_across<5, " d ", " real ">", 75 * d)
-          need("update_bent_across<" d ", " real ">", 12 * d)
+          need("reconstruct_curvilinear_along<5, " d ", " real ">", 40 * d)
+          need("solve_curvilinear_along<" d ", " real ">", 10 * d)
+          need("update_curvilinear_along<" d ", " real ">", 8 * d)
+          need("reconstruct_curvilinear_across<5, " d ", " real ">", 75 * d)
+          need("update_curvilinear_across<" d ", " real ">", 12 * d)
           for (fluid = 0; fluid <= 1; ++fluid) {
             of = (fluid ? "true" : "false") ", " d ", " real ">"
-            need("solve_bent_across<" of, 14 * d)
-            need("advance_bent_across<" of, 26 * d)
+            need("solve_curvilinear_across<" of, 14 * d)
+            need("advance_curvilinear_across<" of, 26 * d)
           }
         }
         need("collect<" real ">", 2)

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bent_grid.hpp"
+#include "curvilinear_grid.hpp"
 #include "grid/slice.hpp"
 #include "refusal.hpp"
 

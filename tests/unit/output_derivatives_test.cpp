@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "bent_grid.hpp"
+#include "curvilinear_grid.hpp"
 
 namespace slipwave {
 namespace {
@@ -88,7 +88,7 @@ Grid<D> waving(const Grid<D>& grid, double height) {
   });
 }
 
-TEST(Derivative, OfLinearFieldsIsExactOnBentRows) {
+TEST(Derivative, OfLinearFieldsIsExactOnCurvilinearRows) {
   const auto flat = waving(Grid<2>{{20, 15}, 0.5, {}}, 0.2);
   const auto of_plane = at_centres<2>(flat, [](const auto& p) { return 1 + 2 * p[0] - 3 * p[1]; });
   const auto deep = waving(Grid<3>{{9, 8, 7}, 0.5, {}}, 0.2);
@@ -99,7 +99,7 @@ TEST(Derivative, OfLinearFieldsIsExactOnBentRows) {
     for (const float value : derivative<3>(of_space, axis)) EXPECT_NEAR(value, slope, 1e-4);
 }
 
-TEST(Derivative, ConvergesToTrueDirectionsOnBentRows) {
+TEST(Derivative, ConvergesToTrueDirectionsOnCurvilinearRows) {
   const auto error = [](std::int64_t cells, int axis) {
     const auto grid = waving(Grid<2>{{cells, cells}, 1. / double(cells), {}}, 0.2);
     const auto field = at_centres<2>(grid, [](const auto& p) { return std::sin(9 * p[0] + 6 * p[1]); });

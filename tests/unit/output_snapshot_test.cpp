@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "base/error.hpp"
-#include "bent_grid.hpp"
+#include "curvilinear_grid.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "grid/slice.hpp"
 #include "output/snapshot_netcdf.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "bent_grid.hpp"
+#include "curvilinear_grid.hpp"
 #include "plot/model_picture.hpp"
 #include "plot/snapshot_picture.hpp"
 #include "plot_cases.hpp"

@@ -125,7 +125,7 @@ TEST(NextToIsotropic, InFittedRowsIsIsotropicRock) {
 }
 
 TEST(NextToIsotropic, StandsBelowAFloorThatRowsFollow) {
-  // Bent rows above, level ones of another height below, among which a rock that is next to isotropic.
+  // Curvilinear rows above, level ones of another height below, among which a rock that is next to isotropic.
   const std::vector<Layer> layers = {parse_layer("0:1500:0:1000"),
                                      parse_layer("sine,100,10,200:2500:1200:2200"),
                                      parse_layer("300:3000:1600:2300 epsilon=1e-6")};

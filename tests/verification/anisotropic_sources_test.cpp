@@ -404,7 +404,7 @@ double error_with_loss(const Material& rock, const Qualities& of, int cells, std
   return force.error(AttenuatingSpace(rock, of, mechanisms, force.ricker_hz));
 }
 /// Rows follow a horizon that dips and rolls.
-double error_in_bent_rows(const Material& rock, int cells) {
+double error_in_curvilinear_rows(const Material& rock, int cells) {
   ForceInSpace force(rock, cells, true, long_form() ? 1 : 0.7);
   auto& medium = force.scene.model.medium;
   auto grid = medium.grid();
@@ -452,11 +452,11 @@ TEST(ForceInAnisotropicSpace, IsThatOfComplexStiffnesses) {
 // Proves (F15).
 TEST(ForceInAnisotropicSpace, InFittedRowsIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
-  EXPECT_LT(error_in_bent_rows(askew, 10), 0.04);
+  EXPECT_LT(error_in_curvilinear_rows(askew, 10), 0.04);
   if (!long_form()) return;
   for (const auto& rock : {shale, askew}) {
-    EXPECT_LT(error_in_bent_rows(rock, 12), 0.03) << rock.tilt;
-    EXPECT_LT(error_in_bent_rows(rock, 18), 0.01) << rock.tilt;
+    EXPECT_LT(error_in_curvilinear_rows(rock, 12), 0.03) << rock.tilt;
+    EXPECT_LT(error_in_curvilinear_rows(rock, 18), 0.01) << rock.tilt;
   }
 }
 

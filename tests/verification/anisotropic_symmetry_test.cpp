@@ -83,8 +83,8 @@ Extruded tilted_slice(const Material& upper, const Material& lower, double azimu
 }
 
 /// Of hills or of a sea whose rows bend, with stresses.
-Extruded bent_slice(int along, bool hills, const EdgeLaws<2>& edges, int order, const Material& upper,
-                    const Material& lower) {
+Extruded curvilinear_slice(int along, bool hills, const EdgeLaws<2>& edges, int order, const Material& upper,
+                           const Material& lower) {
   using enum Component;
   const bool along_y = along == 1;
   const std::vector<Component> of_xz = {vx, vz, sxx, szz, sxz}, of_yz = {vy, vz, syy, szz, syz};
@@ -217,26 +217,26 @@ const std::vector<Slice> slices = {
     {"SlipExponential", [] { return slipping(SlipCorrection::exponential); }, 1e-5, no_slip, 0.03, false},
     {"SlipFirst", [] { return slipping(SlipCorrection::first); }, 1e-5, no_slip, 0.03, false},
     {"Springs", sprung, 1e-5, no_slip, 0.03},
-    {"FittedHills", [] { return bent_slice(0, true, fitted_edges, 5, shale, stiff); }, 1e-8},
+    {"FittedHills", [] { return curvilinear_slice(0, true, fitted_edges, 5, shale, stiff); }, 1e-8},
     {"FittedTiltedSea",
-     [] { return bent_slice(0, false, fitted_edges, 5, dipping_shale, turned_by(stiff, -15)); }, 1e-8},
+     [] { return curvilinear_slice(0, false, fitted_edges, 5, dipping_shale, turned_by(stiff, -15)); }, 1e-8},
     {"FittedTiltedHillsBetweenWalls",
      [] {
-       return bent_slice(0, true, edges_of(EdgeLaw::rigid, EdgeLaw::free, EdgeLaw::rigid), 7,
-                         turned_by(shale, -40), turned_by(stiff, 20));
+       return curvilinear_slice(0, true, edges_of(EdgeLaw::rigid, EdgeLaw::free, EdgeLaw::rigid), 7,
+                                turned_by(shale, -40), turned_by(stiff, 20));
      },
      1e-8},
     {"FittedSeaBetweenMirrors",
      [] {
-       return bent_slice(0, false, edges_of(EdgeLaw::absorbing, EdgeLaw::mirror, EdgeLaw::rigid), 3, shale,
-                         stiff);
+       return curvilinear_slice(0, false, edges_of(EdgeLaw::absorbing, EdgeLaw::mirror, EdgeLaw::rigid), 3,
+                                shale, stiff);
      },
      1e-8},
     // Moduli without relaxation are single precision; points beside interfaces extrapolate from their own
     // side, which multiplies what these round by up to 3.5.
     {"FittedAttenuating",
      [] {
-       return lossy(bent_slice(0, true, fitted_edges, 5, dipping_shale, stiff), {20, 13});
+       return lossy(curvilinear_slice(0, true, fitted_edges, 5, dipping_shale, stiff), {20, 13});
      },
      2e-5, no_loss, 0.1},
     {"PlaneWave", [] { return in_plane_wave("plane:20"); }, 2e-4},
@@ -264,7 +264,7 @@ TEST(AnisotropicSlice, OfYAndZInFittedRowsIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   // Half sweeps along x of two steps are one in 2-D, but not along y: that error falls with the step.
   const auto difference = [](double cfl) {
-    auto both = bent_slice(1, true, fitted_edges, 5, dipping_shale, turned_by(stiff, -15));
+    auto both = curvilinear_slice(1, true, fitted_edges, 5, dipping_shale, turned_by(stiff, -15));
     both.flat.numerics.cfl *= cfl, both.deep.numerics.cfl *= cfl;
     if (!long_form()) both.flat.recording.duration_s = both.deep.recording.duration_s = 0.03;
     return relative_error(samples_of(shoot(both.deep, 1)), samples_of(shoot(both.flat, 1)));

@@ -10,7 +10,7 @@
 #include "solver/simulation.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/point_weights.hpp"
-#include "unit/bent_grid.hpp"
+#include "unit/curvilinear_grid.hpp"
 #include "viscoelastic.hpp"
 
 // What is recorded beside velocity and stress: displacement, acceleration, strain rates, div, curl, DAS.

@@ -169,7 +169,7 @@ void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) 
       if (across != axis && layout_.shape()[std::size_t(across)] > 1)
         find_plates(axis, side, across, domain, ranks);
     if (domain.anisotropic()) find_turning(axis, side, domain);
-    if (axis < D - 1 && !domain.bent_rows.empty()) find_slopes(axis, side, domain);
+    if (axis < D - 1 && !domain.curvilinear_rows.empty()) find_slopes(axis, side, domain);
   }
 }
 
@@ -196,7 +196,7 @@ void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
   edge.shape[std::size_t(axis)] = 1;
   for (std::int64_t n = 0; n < edge.size(); ++n) {
     auto at = edge.index(n);
-    if (!domain.bent(at[D - 1])) continue;
+    if (!domain.curvilinear(at[D - 1])) continue;
     at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - zone : zone - 1;
     auto next = at;
     ++next[std::size_t(axis)];

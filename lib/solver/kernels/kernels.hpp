@@ -109,12 +109,12 @@ struct FusedRow {
   std::int64_t zp = 0, zs = 0, zs2 = 0;
 };
 
-/// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): half of J
-/// of the faces before and behind each cell, and of the faces before the cells along x, neighbours along the
-/// axis a stride apart; 1/J of the cells. J of a cell is that of its faces along x added: what is not stored
-/// need not be fetched.
+/// The metric of a curvilinear row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)):
+/// half of J of the faces before and behind each cell, and of the faces before the cells along x, neighbours
+/// along the axis a stride apart; 1/J of the cells. J of a cell is that of its faces along x added: what is
+/// not stored need not be fetched.
 template <class Real>
-struct BentAlong {
+struct CurvilinearAlong {
   const Real *half_x, *half_lo, *half_hi;
   std::int64_t stride;
   const Real* over_j;
@@ -123,19 +123,19 @@ struct BentAlong {
 /// cells; a stride leads to the next row. N of a cell is the mean of its faces'. What the loops would need
 /// roots and divisions for: |N|/J and 1/J of the cells, 1/|N| of the faces.
 template <class Real>
-struct BentAcross {
+struct CurvilinearAcross {
   const Real* half_n;
   std::int64_t pitch, stride;
   const Real *stretch = nullptr, *over_j = nullptr, *over_face = nullptr;
 };
 /// The fields of the pairs of a sweep along a horizontal axis, in 2-D two.
 template <class Real>
-struct BentPairs {
+struct CurvilinearPairs {
   const Real *v[3], *s[3];
 };
 /// All fields of a range of cells: field rows a pitch apart, rows of cells a stride.
 template <class Real>
-struct BentFields {
+struct CurvilinearFields {
   Real* first;
   std::int64_t pitch, stride;
 };
@@ -144,11 +144,11 @@ struct BentFields {
 /// cells before and behind it; its metric; the states, and the velocities that the cells above it see where
 /// there is fluid.
 template <class Real>
-struct BentSolve {
+struct CurvilinearSolve {
   OutgoingWaves<Real> below, above;
   MaterialRows<Real> lo, hi;
-  BentFields<const Real> fields_lo, fields_hi;
-  BentAcross<Real> metric;
+  CurvilinearFields<const Real> fields_lo, fields_hi;
+  CurvilinearAcross<Real> metric;
   InterfaceStates<Real> faces;
   Real* seen_above;
   std::int64_t seen_pitch;
@@ -156,37 +156,37 @@ struct BentSolve {
 /// What the update of a row reads and writes: the states at the faces before and behind it, where v_lo are
 /// the velocities that its cells see.
 template <class Real>
-struct BentUpdate {
+struct CurvilinearUpdate {
   InterfaceStates<Real> lo, hi;
   const Real* v_lo;
   std::int64_t v_lo_pitch;
   MaterialRows<Real> material;
-  BentAcross<Real> metric;
-  BentFields<Real> fields;
+  CurvilinearAcross<Real> metric;
+  CurvilinearFields<Real> fields;
 };
 
-/// Loops of sweeps through bent rows (bent_rows.hpp), with shear everywhere. Across the rows interface states
-/// are vectors, components z, x, [y], and outgoing waves as outgoing_wave() resolves them: both are those of
-/// the pairs where a face is level.
+/// Loops of sweeps through curvilinear rows (curvilinear_rows.hpp), with shear everywhere. Across the rows
+/// interface states are vectors, components z, x, [y], and outgoing waves as outgoing_wave() resolves them:
+/// both are those of the pairs where a face is level.
 template <class Real>
-struct BentKernels {
-  void (*reconstruct_along)(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
-                            const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
-                            OutgoingWaves<Real> outgoing);
+struct CurvilinearKernels {
+  void (*reconstruct_along)(std::int64_t n, std::int64_t stride, const CurvilinearPairs<Real>& pairs,
+                            const MaterialRows<Real>& material, Real scale,
+                            const CurvilinearAlong<Real>& metric, OutgoingWaves<Real> outgoing);
   void (*solve_along)(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Real* half_face,
                       InterfaceStates<Real> faces);
   void (*update_along)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
                        const MaterialRows<Real>& material, const Real* over_j, const SweptRows<Real>& rows);
-  void (*reconstruct_across)(std::int64_t n, Real scale, const BentFields<const Real>& fields,
-                             const MaterialRows<Real>& material, const BentAcross<Real>& metric,
+  void (*reconstruct_across)(std::int64_t n, Real scale, const CurvilinearFields<const Real>& fields,
+                             const MaterialRows<Real>& material, const CurvilinearAcross<Real>& metric,
                              OutgoingWaves<Real> outgoing);
   /// By whether there is fluid: else the velocity is the same on both sides, and `seen_above` not written.
-  void (*solve_across[2])(std::int64_t n, Real sign, const BentSolve<Real>& at);
-  void (*update_across)(std::int64_t n, Real scale, const BentUpdate<Real>& of);
+  void (*solve_across[2])(std::int64_t n, Real sign, const CurvilinearSolve<Real>& at);
+  void (*update_across)(std::int64_t n, Real scale, const CurvilinearUpdate<Real>& of);
   /// Both in one loop; the face must be none of the row's.
-  void (*advance_across[2])(std::int64_t n, Real scale, const BentSolve<Real>& at,
-                            const BentUpdate<Real>& of);
+  void (*advance_across[2])(std::int64_t n, Real scale, const CurvilinearSolve<Real>& at,
+                            const CurvilinearUpdate<Real>& of);
 };
 
 /// Inner loops of a sweep over n neighbouring cells of one row, for one order and one instruction set.
@@ -217,7 +217,7 @@ struct Kernels {
   /// The fused row where all is fluid, in 2-D and 3-D.
   void (*fused_fluid_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// By dimension.
-  BentKernels<Real> bent[2];
+  CurvilinearKernels<Real> curvilinear[2];
 };
 
 /// Loops of the PML over the field u of a row and its memory phi.

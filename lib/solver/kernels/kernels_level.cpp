@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
 // from the standard library may be instantiated here: the linker could keep this copy for everybody.
-#include "solver/kernels/bent_rows.hpp"
 #include "solver/kernels/cell_formulas.hpp"
+#include "solver/kernels/curvilinear_rows.hpp"
 #include "solver/kernels/fused_row.hpp"
 #include "solver/kernels/kernel_tables.hpp"
 
@@ -247,7 +247,7 @@ constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                  {Uniform ? nullptr : fused_row<Order, 1, true, Real>,
                                   Uniform ? nullptr : fused_row<Order, 2, true, Real>},
                                  Uniform ? nullptr : fused_row<Order, 0, false, Real>,
-                                 {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
+                                 {curvilinear_kernels<Order, 2, Real>, curvilinear_kernels<Order, 3, Real>}};
 
 /// Returns the kernels of that order, searched from the N-th order of the list on; null where it has none.
 template <bool Uniform, class Real, int N = 0>

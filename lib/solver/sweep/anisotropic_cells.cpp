@@ -145,7 +145,7 @@ void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(int axis, const Inde
                                                             const Kernels<Real>& kernels, std::int64_t stride,
                                                             std::int64_t at, const Pairs& pairs,
                                                             const Real* b, Real scale,
-                                                            const BentAlong<Real>& metric,
+                                                            const CurvilinearAlong<Real>& metric,
                                                             OutgoingWaves<Real> outgoing) const {
   const Real sign = scale < 0 ? -1 : 1;
   WavesOfRun<D, Real> waves;
@@ -185,7 +185,7 @@ template <int D, class Real>
 template <int Order>
 void AnisotropicCells<D, Real>::reconstruct_ending(int axis, const Ending& ending, std::int64_t stride,
                                                    std::int64_t at, const Pairs& pairs, Real b, Real scale,
-                                                   const BentAlong<Real>* metric,
+                                                   const CurvilinearAlong<Real>* metric,
                                                    OutgoingWaves<Real> outgoing) const {
   constexpr int reach = reach_of(Order), count = 2 * reach + 1;
   const auto& of = media_[std::size_t(list_[ending.cell].medium)][std::size_t(axis)];
@@ -218,7 +218,7 @@ void AnisotropicCells<D, Real>::reconstruct(int axis, std::int64_t line, const I
                                             const Kernels<Real>& kernels, std::int64_t stride,
                                             const Pairs& pairs, const Real* b, Real scale,
                                             OutgoingWaves<Real> outgoing,
-                                            const BentAlong<Real>* metric) const {
+                                            const CurvilinearAlong<Real>* metric) const {
   if (empty()) return;
   const auto cells = list_.in(line, columns);
   if (cells.empty()) return;

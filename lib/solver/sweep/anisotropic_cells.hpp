@@ -109,7 +109,7 @@ class AnisotropicCells {
   /// of the first of them. `metric`: of a curvilinear row, else null.
   void reconstruct(int axis, std::int64_t line, const IndexRange& columns, const Kernels<Real>& kernels,
                    std::int64_t stride, const Pairs& pairs, const Real* b, Real scale,
-                   OutgoingWaves<Real> outgoing, const BentAlong<Real>* metric = nullptr) const;
+                   OutgoingWaves<Real> outgoing, const CurvilinearAlong<Real>* metric = nullptr) const;
   /// The lines of cells before and behind faces; -1 beyond the grid. The cell before a face stands `shift`
   /// columns before that behind it.
   struct Sides {
@@ -155,11 +155,11 @@ class AnisotropicCells {
                        OutgoingWaves<Real> outgoing) const;
   void reconstruct_curvilinear_run(int axis, const IndexRange& run, const Kernels<Real>& kernels,
                                    std::int64_t stride, std::int64_t at, const Pairs& pairs, const Real* b,
-                                   Real scale, const BentAlong<Real>& metric,
+                                   Real scale, const CurvilinearAlong<Real>& metric,
                                    OutgoingWaves<Real> outgoing) const;
   template <int Order>
   void reconstruct_ending(int axis, const Ending& ending, std::int64_t stride, std::int64_t at,
-                          const Pairs& pairs, Real b, Real scale, const BentAlong<Real>* metric,
+                          const Pairs& pairs, Real b, Real scale, const CurvilinearAlong<Real>* metric,
                           OutgoingWaves<Real> outgoing) const;
   /// Impedances beside a run of faces, from column `from` on: those of cells where there are some, else of
   /// the material.
@@ -184,16 +184,17 @@ class AnisotropicCellsAcross {
   bool empty() const { return list_.empty(); }
   /// Outgoing waves of the cells of these columns of a line; all pointers begin with the first of them.
   void reconstruct(std::int64_t line, const IndexRange& columns, const Kernels<Real>& kernels,
-                   const BentFields<const Real>& fields, const BentAcross<Real>& metric, const Real* b,
-                   Real scale, OutgoingWaves<Real> outgoing) const;
+                   const CurvilinearFields<const Real>& fields, const CurvilinearAcross<Real>& metric,
+                   const Real* b, Real scale, OutgoingWaves<Real> outgoing) const;
   /// The waves of a cell; none of one that is not anisotropic.
   std::optional<RowWaves<D, Real>> waves_of(std::int64_t line, std::int64_t x) const;
   /// States of the faces between two lines, -1 beyond the grid; `fluid`: the cells above them see velocities
   /// of their own.
-  void solve(std::int64_t lo, std::int64_t hi, const IndexRange& columns, const BentSolve<Real>& at,
+  void solve(std::int64_t lo, std::int64_t hi, const IndexRange& columns, const CurvilinearSolve<Real>& at,
              Real sign, bool fluid) const;
   /// Adds to the stresses of these columns; `size` is that of the fraction of the step.
-  void add_stress(std::int64_t line, const IndexRange& columns, Real size, const BentUpdate<Real>& of) const;
+  void add_stress(std::int64_t line, const IndexRange& columns, Real size,
+                  const CurvilinearUpdate<Real>& of) const;
 
   std::int64_t memory_bytes() const {
     return list_.memory_bytes() + bytes_of(media_) + values_.size() * std::int64_t(sizeof(Real));
@@ -219,10 +220,10 @@ class AnisotropicCellsAcross {
   /// Velocities and tractions of n cells.
   using Motion = Real[motion_parts][cells_at_once];
   static void load(std::int64_t n, const Real* field, std::int64_t pitch, const Real* half_n,
-                   const BentAcross<Real>& metric, Motion& motion);
+                   const CurvilinearAcross<Real>& metric, Motion& motion);
   /// Impedances beside a run of faces, of their lower (0) or upper side.
   void impedances_beside(std::int64_t line, std::size_t side, const IndexRange& columns,
-                         const MaterialRows<Real>& material, const BentAcross<Real>& metric,
+                         const MaterialRows<Real>& material, const CurvilinearAcross<Real>& metric,
                          std::int64_t from, const RunOfImpedances<D, Real>& other,
                          RunOfImpedances<D, Real>& to) const;
 

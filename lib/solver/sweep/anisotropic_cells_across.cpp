@@ -24,14 +24,16 @@ template <int D, class Real>
 AnisotropicCellsAcross<D, Real>::AnisotropicCellsAcross(const Domain<D>& domain,
                                                         const Metric<D, Real>& metric, int reach)
     : reach_(reach) {
-  if (!metric.any_bent() || domain.anisotropic_cells().empty()) return;
+  if (!metric.any_curvilinear() || domain.anisotropic_cells().empty()) return;
   const auto& shape = domain.grid.shape;
   const std::int64_t lines = domain.grid.size() / shape[0];
-  const auto bent = [&](std::int64_t row) { return row >= 0 && row < shape[D - 1] && domain.bent(row); };
+  const auto curvilinear = [&](std::int64_t row) {
+    return row >= 0 && row < shape[D - 1] && domain.curvilinear(row);
+  };
   for (std::int64_t line = 0; line < lines; ++line) {
     auto at = domain.grid.index(line * shape[0]);
     const auto row = at[D - 1];
-    const bool own = bent(row), beside = bent(row - 1) || bent(row + 1);
+    const bool own = curvilinear(row), beside = curvilinear(row - 1) || curvilinear(row + 1);
     for (; (own || beside) && at[0] < shape[0]; ++at[0]) {
       if (const auto* const cell = domain.anisotropic_cell(at))
         list_.cells.push_back({std::int32_t(at[0]), cell->medium});
@@ -118,7 +120,7 @@ void AnisotropicCellsAcross<D, Real>::find_weights(const Rows& rows, std::int64_
 
 template <int D, class Real>
 void AnisotropicCellsAcross<D, Real>::load(std::int64_t n, const Real* field, std::int64_t pitch,
-                                           const Real* half_n, const BentAcross<Real>& metric,
+                                           const Real* half_n, const CurvilinearAcross<Real>& metric,
                                            Motion& motion) {
   for (std::int64_t i = 0; i < n; ++i) {
     const auto v = row_velocity<D>(field + i, pitch);
@@ -131,9 +133,9 @@ void AnisotropicCellsAcross<D, Real>::load(std::int64_t n, const Real* field, st
 template <int D, class Real>
 void AnisotropicCellsAcross<D, Real>::reconstruct(std::int64_t line, const IndexRange& columns,
                                                   const Kernels<Real>& kernels,
-                                                  const BentFields<const Real>& fields,
-                                                  const BentAcross<Real>& metric, const Real* b, Real scale,
-                                                  OutgoingWaves<Real> outgoing) const {
+                                                  const CurvilinearFields<const Real>& fields,
+                                                  const CurvilinearAcross<Real>& metric, const Real* b,
+                                                  Real scale, OutgoingWaves<Real> outgoing) const {
   if (empty()) return;
   const Real sign = scale < 0 ? -1 : 1;
   Weights weights;
@@ -174,12 +176,10 @@ void AnisotropicCellsAcross<D, Real>::reconstruct(std::int64_t line, const Index
 }
 
 template <int D, class Real>
-void AnisotropicCellsAcross<D, Real>::impedances_beside(std::int64_t line, std::size_t side,
-                                                        const IndexRange& columns,
-                                                        const MaterialRows<Real>& material,
-                                                        const BentAcross<Real>& metric, std::int64_t from,
-                                                        const RunOfImpedances<D, Real>& other,
-                                                        RunOfImpedances<D, Real>& to) const {
+void AnisotropicCellsAcross<D, Real>::impedances_beside(
+    std::int64_t line, std::size_t side, const IndexRange& columns, const MaterialRows<Real>& material,
+    const CurvilinearAcross<Real>& metric, std::int64_t from, const RunOfImpedances<D, Real>& other,
+    RunOfImpedances<D, Real>& to) const {
   const auto cells = list_.in(line, columns);
   for (std::int64_t k = 0; k < columns.count() && cells.count() < columns.count(); ++k) {
     const auto i = from + k;
@@ -215,7 +215,7 @@ void AnisotropicCellsAcross<D, Real>::impedances_beside(std::int64_t line, std::
 
 template <int D, class Real>
 void AnisotropicCellsAcross<D, Real>::solve(std::int64_t lo, std::int64_t hi, const IndexRange& columns,
-                                            const BentSolve<Real>& at, Real sign, bool fluid) const {
+                                            const CurvilinearSolve<Real>& at, Real sign, bool fluid) const {
   if (empty()) return;
   RunOfImpedances<D, Real> of_lo, of_hi;
   Real up[D][cells_at_once], down[D][cells_at_once], v[D][cells_at_once];
@@ -249,7 +249,8 @@ void AnisotropicCellsAcross<D, Real>::solve(std::int64_t lo, std::int64_t hi, co
       const auto normal = normal_of(k);
       const Real over = at.metric.over_face[i + k];
       // A fluid slides along the face (F7).
-      const auto seen_by = [&](const MaterialRows<Real>& material, const BentFields<const Real>& fields) {
+      const auto seen_by = [&](const MaterialRows<Real>& material,
+                               const CurvilinearFields<const Real>& fields) {
         if (!fluid || !(material.zp[i + k] > 0) || material.zs[i + k] > 0) return of_face;
         const auto own = sign * row_velocity<D>(fields.first + i + k, fields.pitch);
         return own + (over * over * dot(normal, of_face - own)) * normal;
@@ -262,7 +263,7 @@ void AnisotropicCellsAcross<D, Real>::solve(std::int64_t lo, std::int64_t hi, co
 
 template <int D, class Real>
 void AnisotropicCellsAcross<D, Real>::add_stress(std::int64_t line, const IndexRange& columns, Real size,
-                                                 const BentUpdate<Real>& of) const {
+                                                 const CurvilinearUpdate<Real>& of) const {
   if (empty()) return;
   const auto axes = axes_of_pairs<D>(D - 1);
   Real strain[stresses][cells_at_once];

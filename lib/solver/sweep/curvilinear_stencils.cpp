@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/instantiate.hpp"
-#include "solver/kernels/bent_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/sweep/motion_along.hpp"
 #include "solver/sweep/stencils.hpp"
 
@@ -19,8 +19,8 @@ struct ExtendedColumn {
   using Vector = RowVector<D, Real>;
   using At = MotionAt<Vector>;
   static constexpr bool splits = false;
-  const BentFields<const Real>& fields;
-  const BentAcross<Real>& metric;
+  const CurvilinearFields<const Real>& fields;
+  const CurvilinearAcross<Real>& metric;
   std::int64_t column;
   Real scale;
   const InterfaceCorrections<D, Real>& corrections;
@@ -128,7 +128,7 @@ void reconstruct(const RowWaves<D, Real>& waves,
       all_up[c] += behind.motions[wave][c] * up, all_down[c] += before.motions[wave][c] * down;
   }
   const auto resolved = [&](const std::array<Real, std::size_t(D)>& all, const RowVector<D, Real>& normal) {
-    const auto of = bent_face<D>(normal);
+    const auto of = curvilinear_face<D>(normal);
     return resolved_on_face<D>(row_vector<D>(all), of.normal, of.over);
   };
   put_outgoing<D>(resolved(all_up, cell.normals[1]), resolved(all_down, cell.normals[0]), outgoing);
@@ -140,11 +140,13 @@ void reconstruct(const std::array<MotionAt<RowVector<D, Real>>, std::size_t(Orde
                  const CellAcross<D, Real>& cell, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
   const Real sign = cell.scale < 0 ? -1 : 1, courant = sign * cell.scale * cell.b * cell.stretch;
-  const BentCell<D, Real> formula = {cell.normals[0], cell.normals[1], courant * cell.zp, courant * cell.zs,
-                                     sign * cell.zp,  sign * cell.zs,  cell.zs > 0};
+  const CurvilinearCell<D, Real> formula = {cell.normals[0],   cell.normals[1], courant * cell.zp,
+                                            courant * cell.zs, sign * cell.zp,  sign * cell.zs,
+                                            cell.zs > 0};
   RowVector<D, Real> up, down;
-  reconstruct_bent_cell<Order, D>([&](long k) { return at[std::size_t(k + reach)].v; },
-                                  [&](long k) { return at[std::size_t(k + reach)].t; }, formula, up, down);
+  reconstruct_curvilinear_cell<Order, D>([&](long k) { return at[std::size_t(k + reach)].v; },
+                                         [&](long k) { return at[std::size_t(k + reach)].t; }, formula, up,
+                                         down);
   put_outgoing<D>(up, down, outgoing);
 }
 
@@ -179,7 +181,7 @@ template <int D, class Real>
 CurvilinearStencils<D, Real>::CurvilinearStencils(const Domain<D>& domain, int reach,
                                                   const InterfaceCorrections<D, Real>& corrections,
                                                   const Metric<D, Real>& metric) {
-  if (domain.bent_rows.empty()) return;
+  if (domain.curvilinear_rows.empty()) return;
   const auto& grid = domain.grid;
   const StencilSearch<D, 2> search{.impedances = {&domain.impedance(wave_p), &domain.impedance(wave_s)},
                                    .waves = {wave_p, wave_s},
@@ -214,7 +216,7 @@ CurvilinearStencils<D, Real>::CurvilinearStencils(const Domain<D>& domain, int r
   };
   for (std::int64_t line = 0; line < grid.size() / grid.shape[0]; ++line) {
     auto at = grid.index(line * grid.shape[0]);
-    for (at[0] = 0; at[0] < grid.shape[0] && domain.bent(at[D - 1]); ++at[0])
+    for (at[0] = 0; at[0] < grid.shape[0] && domain.curvilinear(at[D - 1]); ++at[0])
       if (const auto found = find_stencil<Side>(search, at, weld_of)) list_.cells.push_back(*found);
     list_.end_line();
   }

@@ -39,8 +39,8 @@ class CurvilinearStencils {
   std::int64_t memory_bytes() const { return list_.memory_bytes() + bytes_of(welds_); }
   /// What sweeps across a row read, from the first of some columns on.
   struct Row {
-    BentFields<const Real> fields;
-    BentAcross<Real> metric;
+    CurvilinearFields<const Real> fields;
+    CurvilinearAcross<Real> metric;
     MaterialRows<Real> material;
     Real scale;
   };

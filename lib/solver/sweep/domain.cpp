@@ -146,9 +146,9 @@ class SideRowsFinder {
   std::array<std::array<std::vector<double>, 2>, 2> speeds_;  // of the whole model
 };
 
-/// Finds bent rows, and the heights of others.
+/// Finds curvilinear rows, and the heights of others.
 template <int D>
-void find_bent_rows(Domain<D>& domain) {
+void find_curvilinear_rows(Domain<D>& domain) {
   if (!domain.model_grid.rows) return;
   const auto& rows = *domain.model_grid.rows;
   const std::int64_t count = domain.grid.shape[D - 1];
@@ -161,13 +161,13 @@ void find_bent_rows(Domain<D>& domain) {
     level[std::size_t(k)] = rows.row_is_level(std::clamp<std::int64_t>(of_model, 0, rows.cells()[D - 1]));
   }
   const std::int64_t near = nearness_of(domain.order);
-  domain.bent_rows.assign(std::size_t(count), 0);
+  domain.curvilinear_rows.assign(std::size_t(count), 0);
   domain.row_heights.assign(std::size_t(count), 1);
   for (std::int64_t k = 0; k < count; ++k) {
-    auto& bent = domain.bent_rows[std::size_t(k)];
+    auto& curvilinear = domain.curvilinear_rows[std::size_t(k)];
     for (std::int64_t n = k - near; n <= k + near + 1; ++n)
-      bent = char(bent || !level[std::size_t(std::clamp<std::int64_t>(n, 0, count))]);
-    if (bent) continue;
+      curvilinear = char(curvilinear || !level[std::size_t(std::clamp<std::int64_t>(n, 0, count))]);
+    if (curvilinear) continue;
     Index<D> upper{}, lower{};
     upper[D - 1] = k, lower[D - 1] = k + 1;
     domain.row_heights[std::size_t(k)] = corner_depth(domain, lower) - corner_depth(domain, upper);
@@ -175,8 +175,9 @@ void find_bent_rows(Domain<D>& domain) {
   for (const int side : {0, 1})
     if (domain.edges[D - 1][side] == EdgeLaw::mirror && !level[std::size_t(side ? count : 0)])
       throw Error("found a mirror along rows that are not level, expected another edge", ErrorKind::usage);
-  if (std::none_of(domain.bent_rows.begin(), domain.bent_rows.end(), [](char bent) { return bent; }))
-    domain.bent_rows.clear();
+  if (std::none_of(domain.curvilinear_rows.begin(), domain.curvilinear_rows.end(),
+                   [](char curvilinear) { return curvilinear; }))
+    domain.curvilinear_rows.clear();
 }
 
 /// Impedances beside a tilted mean differ by no more: beyond, the reconstruction across its faces can feed
@@ -217,13 +218,13 @@ bool couples_pairs(const Elasticity<D>& c) {
 template <int D>
 class AnisotropicMedia {
  public:
-  /// `mean`: an equivalent TTI cell; `bent`: in bent rows.
-  std::int32_t number(const Material& material, bool mean, bool bent) {
+  /// `mean`: an equivalent TTI cell; `curvilinear`: in curvilinear rows.
+  std::int32_t number(const Material& material, bool mean, bool curvilinear) {
     const auto extra =
         material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
     const Key key{material.vp,    material.vs,   material.rho,     material.epsilon,  material.delta,
                   material.gamma, material.tilt, material.azimuth, material.rotation, extra.epsilon1,
-                  extra.delta1,   extra.delta3,  extra.gamma2,     double(mean),      double(bent)};
+                  extra.delta1,   extra.delta3,  extra.gamma2,     double(mean),      double(curvilinear)};
     if (key == last_ && !media_.empty()) return number_;
     last_ = key;
     const auto [found, is_new] = numbers_.try_emplace(key, std::int32_t(media_.size()));
@@ -232,9 +233,9 @@ class AnisotropicMedia {
       const double p = material.rho * material.vp * material.vp,
                    mu = material.rho * material.vs * material.vs;
       media_.push_back({material.rho, c,
-                        bent   ? isotropic<D>(c(3, 3), c(5, 5))
-                        : mean ? isotropic<D>(p, mu)
-                               : c.along_grid(),
+                        curvilinear ? isotropic<D>(c(3, 3), c(5, 5))
+                        : mean      ? isotropic<D>(p, mu)
+                                    : c.along_grid(),
                         couples_pairs(c), mean});
     }
     return number_ = found->second;
@@ -256,21 +257,21 @@ template <int D>
 void find_anisotropic_cells(Domain<D>& domain, const Medium<D>& medium) {
   AnisotropicMedia<D> media;
   std::vector<AnisotropicCell> cells;
-  const bool any = any_tilted_axes(medium) || (domain.anisotropic() && !domain.bent_rows.empty());
+  const bool any = any_tilted_axes(medium) || (domain.anisotropic() && !domain.curvilinear_rows.empty());
   for (std::int64_t n = 0; any && n < domain.grid.size(); ++n) {
     const auto at = domain.grid.index(n);
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
-    const bool bent = domain.bent(at[D - 1]);
-    if (!has_tilted_axis(medium, cell) && !(bent && is_anisotropic(medium, cell))) continue;
-    const auto of = media.number(material_of(medium, cell), false, bent);
-    if (bent || media[of].turned) cells.push_back({n, of});
+    const bool curvilinear = domain.curvilinear(at[D - 1]);
+    if (!has_tilted_axis(medium, cell) && !(curvilinear && is_anisotropic(medium, cell))) continue;
+    const auto of = media.number(material_of(medium, cell), false, curvilinear);
+    if (curvilinear || media[of].turned) cells.push_back({n, of});
   }
   if constexpr (D == 2) {
     const std::int64_t last = domain.grid.shape[1] - 1;
     for (const auto cell : cells_of_tilted_means(medium)) {
       const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
-      if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
-          domain.bent(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
+      if (domain.curvilinear(std::max<std::int64_t>(at[1] - 1, 0)) || domain.curvilinear(at[1]) ||
+          domain.curvilinear(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
         continue;
       cells.push_back({domain.grid.flat(at), media.number(tilted_mean_of(medium, cell), true, false)});
     }
@@ -337,8 +338,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
              material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&
              (!state.anisotropic || same_anisotropy(at, i, j));
     };
-    // In bent rows no two cells are alike; faces to another band are all solved.
-    const std::int64_t last = domain.bent(at[D - 1]) || domain.beside_band(at[D - 1]) ? 0 : nx;
+    // In curvilinear rows no two cells are alike; faces to another band are all solved.
+    const std::int64_t last = domain.curvilinear(at[D - 1]) || domain.beside_band(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
       if (x - first >= std::min(shortest_run, nx) && own_loops[std::size_t(first)])
@@ -532,7 +533,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   // Its rows are those of the model, not of a grid of that size.
   domain.grid.rows = nullptr;
   if (domain.model_grid.rows) SideRowsFinder<D>(domain, medium).find();
-  find_bent_rows(domain);
+  find_curvilinear_rows(domain);
   domain.own = {0, domain.grid.shape[z]};
   const auto held = domain.model_grid.first[z];
   if (part.cut(0)) domain.own.first = part.first - held;

@@ -22,7 +22,7 @@ namespace slipwave::solver {
 
 /// A cell of the computed grid whose rock is more than the loops of its row know, and the number of its
 /// medium: one that an interface cuts (an equivalent TTI cell), or rock whose axes are turned from those of
-/// the grid; in bent rows all anisotropic rock.
+/// the grid; in curvilinear rows all anisotropic rock.
 struct AnisotropicCell {
   std::int64_t cell;
   std::int32_t medium;
@@ -61,12 +61,14 @@ class Domain {
   /// These two are of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that
   /// stencils reach from it is not level, and the height of level ones in cells. They are empty where no row
   /// is curvilinear, or all heights are one cell.
-  std::vector<char> bent_rows;
+  std::vector<char> curvilinear_rows;
   std::vector<double> row_heights;
   /// How rows continue beyond each side of the model.
   std::array<std::array<SideRows, 2>, std::size_t(D)> side_rows{};
   std::array<bool, 2> level_ends{};  // whether the first and the last row of the model are level
-  bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
+  bool curvilinear(std::int64_t row) const {
+    return !curvilinear_rows.empty() && curvilinear_rows[std::size_t(row)];
+  }
   double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
 
   /// Impedance of a wave along an axis in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps,
@@ -83,7 +85,8 @@ class Domain {
   double coupling(const Index<D>& cell, int one = 0, int other = D - 1) const {
     return more_[std::size_t(coupling_row<D>(material_kind_, one, other))](cell);
   }
-  /// By cell, ascending. Equivalent TTI cells of zones are isotropic, and those in bent rows and beside them.
+  /// By cell, ascending. Equivalent TTI cells of zones are isotropic, and those in curvilinear rows and
+  /// beside them.
   const std::vector<AnisotropicCell>& anisotropic_cells() const { return cells_; }
   const std::vector<AnisotropicMedium<D>>& anisotropic_media() const { return media_; }
   /// Null where a cell is none of them.
@@ -123,7 +126,7 @@ class Domain {
   /// fluid: they couple all fields.
   MaterialKind material_kind() const { return material_kind_; }
   void find_material_kind() {
-    const bool shears = subdomain.shear || !bent_rows.empty() || shear();
+    const bool shears = subdomain.shear || !curvilinear_rows.empty() || shear();
     if (!anisotropic_) material_kind_ = shears ? MaterialKind::isotropic : MaterialKind::fluid;
   }
   bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }

@@ -48,7 +48,7 @@ class AlongSurface {
 /// N of the surface where a cell ends, and how far the first ghost is from it along the axis, in cells.
 template <int D>
 std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& at, int axis, int side) {
-  if (domain.bent(at[D - 1])) {
+  if (domain.curvilinear(at[D - 1])) {
     const auto [normal, height] = end_of_rows(domain, at, side);
     return {normal_in_grid<D>(normal), height};
   }
@@ -116,9 +116,9 @@ template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row) {
   const double zs = domain.impedance(wave_s)(at);
-  const bool bent = domain.bent(at[D - 1]);
-  // On bent rows sides keep the plain mirror image.
-  if (!ends_at_free_surface(domain, at, axis, side) || zs == 0 || (bent && axis < D - 1)) return {};
+  const bool curvilinear = domain.curvilinear(at[D - 1]);
+  // On curvilinear rows sides keep the plain mirror image.
+  if (!ends_at_free_surface(domain, at, axis, side) || zs == 0 || (curvilinear && axis < D - 1)) return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {
     Index<D> next = before;
@@ -192,8 +192,8 @@ FreeSurface<D, Real> FreeSurface<D, Real>::beside_void(const Layout<D>& layout, 
     if (z[n] == 0 || z[n + stride] > 0) continue;
     const auto at = grid.index(n);
     if (at[std::size_t(axis)] == (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
-    // Beside void in bent rows InterfaceCorrections serve.
-    if (axis == D - 1 && domain.bent(at[D - 1])) continue;
+    // Beside void in curvilinear rows InterfaceCorrections serve.
+    if (axis == D - 1 && domain.curvilinear(at[D - 1])) continue;
     cells.push_back(at);
     surface.keys_.push_back(surface.key_of(at));
     surface.places_.push_back(layout.cell(at));
@@ -252,7 +252,7 @@ void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domai
         {pair, number(at), place(row_b), place(impedance_row), Real(outward), begin, terms_.size()});
     if (inside_) corrected_[std::size_t(number(at))] = 1;
   }
-  if (found && (domain.anisotropic_cell(at) || domain.bent(at[D - 1])))
+  if (found && (domain.anisotropic_cell(at) || domain.curvilinear(at[D - 1])))
     matrix_ends_.push_back({number(at), place(row_b), stiffness_across(domain, at)});
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/kernels/bent_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"

@@ -54,8 +54,8 @@ bool extends_far(const Domain<D>& domain, const Index<D>& from, int step) {
 
 /// Whether the face before a row bends.
 template <int D>
-bool bent_face(const Domain<D>& domain, std::int64_t row) {
-  return domain.bent(row - 1) || domain.bent(row);
+bool curvilinear_face(const Domain<D>& domain, std::int64_t row) {
+  return domain.curvilinear(row - 1) || domain.curvilinear(row);
 }
 
 /// Whether the faces before a row (in 3-D plane) part fluid from solid along all of it.
@@ -71,8 +71,8 @@ bool spans_grid(const Domain<D>& domain, std::int64_t row) {
   return true;
 }
 
-/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface, or in bent
-/// rows at the free surface of a solid, that extends far enough.
+/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface, or in
+/// curvilinear rows at the free surface of a solid, that extends far enough.
 template <int D>
 bool corrected(const Domain<D>& domain, const Index<D>& below) {
   Index<D> above = below;
@@ -82,7 +82,7 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   const double z_above = domain.impedance(wave_p)(above), z_below = domain.impedance(wave_p)(below);
   if (z_above == 0 || z_below == 0) {
     // Level rows have FreeSurface.
-    if (!domain.bent(below[D - 1] - (z_below == 0 ? 1 : 0))) return false;
+    if (!domain.curvilinear(below[D - 1] - (z_below == 0 ? 1 : 0))) return false;
   } else if (z_above > gas_ratio * z_below || z_below > gas_ratio * z_above) {
     return false;
   }
@@ -119,7 +119,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
   first_.assign(2, 0);
   for (std::int64_t row = 1; row < shape[z]; ++row) {
     // Stairs of a regular grid are of first order anyway, and its axes are alike.
-    const bool wanted = any && (bent_face(domain, row) || spans_grid(domain, row));
+    const bool wanted = any && (curvilinear_face(domain, row) || spans_grid(domain, row));
     for (std::int64_t n = 0; wanted && n < plane.size(); ++n) {
       Index<D> at = plane.index(n);
       at[z] = row;
@@ -159,7 +159,7 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
   constexpr std::size_t axes = D - 1;
   const std::int64_t row = below[z];
   Point<D> in_grid = unit_vector<std::size_t(D)>(std::size_t(z));
-  for (int axis = 0; axis < z && metric.bent_row(row) && metric.bent_row(row - 1); ++axis) {
+  for (int axis = 0; axis < z && metric.curvilinear_row(row) && metric.curvilinear_row(row - 1); ++axis) {
     Index<D> line = below;
     line[0] = 0;
     const auto of = metric.across(line, below[0]);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/kernels/bent_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"

@@ -216,7 +216,7 @@ void extended_pair(const InterfaceStencil& stencil, int reach, const PairOfLine<
 template <class Real>
 void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRange& columns,
                                      const PairOfLine<Real>& pair, const MaterialRows<Real>& material,
-                                     Real* up, Real* down, const BentAlong<Real>* metric) const {
+                                     Real* up, Real* down, const CurvilinearAlong<Real>* metric) const {
   const Real* const impedance = wave_ == wave_p ? material.zp : material.zs;
   const Real scale = pair.scale, sign = scale < 0 ? -1 : 1;
   for (auto n = list_.from(line, columns.first), end = list_.end(line); n < end && list_[n].x < columns.last;

@@ -139,7 +139,8 @@ struct PairOfLine {
   std::int64_t stride;
   const PairCorrections<Real>& corrections;
   Real scale;
-  /// Half of J of the faces (BentAlong) of a curvilinear row, where the pair is (v, J s); null in level ones.
+  /// Half of J of the faces (CurvilinearAlong) of a curvilinear row, where the pair is (v, J s); null in
+  /// level ones.
   const Real* half_j = nullptr;
   std::int64_t j_stride = 0;
 };
@@ -232,7 +233,7 @@ class InterfaceStencils {
   template <class Real>
   void correct(int order, std::int64_t line, const IndexRange& columns, const PairOfLine<Real>& pair,
                const MaterialRows<Real>& material, Real* up, Real* down,
-               const BentAlong<Real>* metric = nullptr) const {
+               const CurvilinearAlong<Real>* metric = nullptr) const {
     if (!list_.empty(line)) correct_line(order, line, columns, pair, material, up, down, metric);
   }
 
@@ -240,7 +241,7 @@ class InterfaceStencils {
   template <class Real>
   void correct_line(int order, std::int64_t line, const IndexRange& columns, const PairOfLine<Real>& pair,
                     const MaterialRows<Real>& material, Real* up, Real* down,
-                    const BentAlong<Real>* metric) const;
+                    const CurvilinearAlong<Real>* metric) const;
   Wave wave_ = wave_p;
   ByLine<InterfaceStencil> list_;
 };

@@ -61,9 +61,9 @@ double height_of_face(const CornerDepths<D>& depth, const Index<D>& cell, int ax
 }  // namespace
 
 template <int D, class Real>
-Metric<D, Real>::Metric(const Domain<D>& domain) : bent_(domain.bent_rows) {
+Metric<D, Real>::Metric(const Domain<D>& domain) : curvilinear_(domain.curvilinear_rows) {
   for (const double height : domain.row_heights) inverse_heights_.push_back(Real(1 / height));
-  if (bent_.empty()) return;
+  if (curvilinear_.empty()) return;
   cells_ = domain.grid.shape;
   auto with_last_faces = cells_;
   ++with_last_faces[D - 1];
@@ -173,21 +173,21 @@ void Metric<D, Real>::fill_ghosts_beyond(const Domain<D>& domain, const Index<D>
 }
 
 template <int D, class Real>
-BentAlong<Real> Metric<D, Real>::along(int axis, const Index<D>& line, std::int64_t x) const {
+CurvilinearAlong<Real> Metric<D, Real>::along(int axis, const Index<D>& line, std::int64_t x) const {
   const Real* const face = row(line, row_face + axis) + x;
   const std::int64_t stride = layout_.stride(axis);
   return {row(line, row_face) + x, face, face + stride, stride, row(line, row_over_j) + x};
 }
 
 template <int D, class Real>
-BentAcross<Real> Metric<D, Real>::across(const Index<D>& line, std::int64_t x) const {
+CurvilinearAcross<Real> Metric<D, Real>::across(const Index<D>& line, std::int64_t x) const {
   return {row(line, row_n_face) + x,  layout_.row_pitch(),       layout_.stride(D - 1),
           row(line, row_stretch) + x, row(line, row_over_j) + x, row(line, row_over_face) + x};
 }
 
 template <int D, class Real>
 Real Metric<D, Real>::volume(const Index<D>& at) const {
-  if (!bent_row(at[D - 1])) return 1 / inverse_height(at[D - 1]);
+  if (!curvilinear_row(at[D - 1])) return 1 / inverse_height(at[D - 1]);
   Index<D> line = at;
   line[0] = 0;
   const Real* const half = row(line, row_face) + at[0];

@@ -13,24 +13,28 @@ namespace slipwave::solver {
 template <int D>
 class CornerDepths;
 
-/// The metric of a fitted grid on the computed grid (theory.md (F1)): of bent rows J and N by cell and face;
-/// of level rows their height, by which the sweep along z over them is shorter or longer. Empty, and never
-/// asked, where the grid is regular.
+/// The metric of a fitted grid on the computed grid (theory.md (F1)): of curvilinear rows J and N by cell and
+/// face; of level rows their height, by which the sweep along z over them is shorter or longer. Empty, and
+/// never asked, where the grid is regular.
 template <int D, class Real>
 class Metric {
  public:
   Metric() = default;
   explicit Metric(const Domain<D>& domain);
 
-  bool any_bent() const { return !bent_.empty(); }
+  bool any_curvilinear() const { return !curvilinear_.empty(); }
   std::int64_t memory_bytes() const {
-    return values_.size() * std::int64_t(sizeof(Real)) + bytes_of(bent_) + bytes_of(inverse_heights_) +
+    return values_.size() * std::int64_t(sizeof(Real)) + bytes_of(curvilinear_) + bytes_of(inverse_heights_) +
            bytes_of(fluid_);
   }
   /// Whether a row (in 3-D a plane of rows), counted along z, or any that its stencils read is not level.
-  bool bent_row(std::int64_t row) const { return !bent_.empty() && bent_[std::size_t(row)]; }
-  bool bent(std::int64_t line) const { return !bent_.empty() && bent_[std::size_t(line / lines_a_row_)]; }
-  /// h over the height of a level row; 1 for bent ones.
+  bool curvilinear_row(std::int64_t row) const {
+    return !curvilinear_.empty() && curvilinear_[std::size_t(row)];
+  }
+  bool curvilinear(std::int64_t line) const {
+    return !curvilinear_.empty() && curvilinear_[std::size_t(line / lines_a_row_)];
+  }
+  /// h over the height of a level row; 1 for curvilinear ones.
   Real inverse_height(std::int64_t row) const {
     return inverse_heights_.empty() ? Real(1) : inverse_heights_[std::size_t(row)];
   }
@@ -39,8 +43,8 @@ class Metric {
   bool fluid_at_face(std::int64_t line) const { return fluid(line) || fluid(line - lines_a_row_); }
   /// These return the metric of a curvilinear row, from cell x on: for sweeps along the row and for those
   /// across the rows.
-  BentAlong<Real> along(int axis, const Index<D>& line, std::int64_t x) const;
-  BentAcross<Real> across(const Index<D>& line, std::int64_t x) const;
+  CurvilinearAlong<Real> along(int axis, const Index<D>& line, std::int64_t x) const;
+  CurvilinearAcross<Real> across(const Index<D>& line, std::int64_t x) const;
   /// All rows of the metric of a line.
   static constexpr int rows_of_line = 2 * D + 1;
   const Real* first_row(const Index<D>& line) const { return row(line, 0); }
@@ -72,7 +76,7 @@ class Metric {
 
   Index<D> cells_{};  // of the grid
   std::int64_t lines_a_row_ = 1;
-  std::vector<char> bent_;             // by row
+  std::vector<char> curvilinear_;      // by row
   std::vector<Real> inverse_heights_;  // by row
   std::vector<char> fluid_;            // by line: whether it holds fluid cells
   Layout<D> layout_;

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "solver/kernels/bent_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {

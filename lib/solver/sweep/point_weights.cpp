@@ -168,10 +168,10 @@ constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
 
 /// Whether an edge across z makes even or odd what is along and across it, but not what is along x and z: on
-/// bent rows the stresses of a solid and the velocity of a fluid.
+/// curvilinear rows the stresses of a solid and the velocity of a fluid.
 template <int D>
 bool askew(const Domain<D>& domain, const Index<D>& centre, EdgeLaw law, int row, bool fluid) {
-  if (!domain.bent(centre[D - 1])) return false;
+  if (!domain.curvilinear(centre[D - 1])) return false;
   return law == EdgeLaw::mirror || (law == EdgeLaw::free && (row < D) == fluid);
 }
 

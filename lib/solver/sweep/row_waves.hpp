@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/kernels/bent_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/sweep/domain.hpp"
 
@@ -79,7 +79,7 @@ RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, double j, const P
                               const std::array<Point<D>, 2>& normals_of_faces);
 /// Returns the waves of the cell at which the metric begins.
 template <int D, class Real>
-RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, const BentAcross<Real>& metric) {
+RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, const CurvilinearAcross<Real>& metric) {
   const auto face = [&](std::int64_t at) {
     return normal_in_grid<D>(face_normal<D>(metric.half_n + at, metric.pitch));
   };

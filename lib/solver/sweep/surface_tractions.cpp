@@ -93,16 +93,16 @@ class Sums {
 };
 
 /// Shares of the terms of (E11b) and (E11c) over x = (vs/vp)^2: the normal one fitted to the speed of the
-/// discrete wave at vp/vs of 1.4 to 8, where all are less in soft rock so that no wave grows. In bent rows
-/// there is no tangential one.
+/// discrete wave at vp/vs of 1.4 to 8, where all are less in soft rock so that no wave grows. In curvilinear
+/// rows there is no tangential one.
 struct Shares {
   double normal, tangential, bend;
 };
-Shares shares_of(double x, bool bent) {
+Shares shares_of(double x, bool curvilinear) {
   x = std::max(x, 0.01);
   const double soft = std::min(1., 8 * x);
   const double bend = std::min(1., 3.6 * x);
-  if (bent) return {0.85 * soft * (0.2326 - 0.1551 * x - 0.0242 / x), 0, bend};
+  if (curvilinear) return {0.85 * soft * (0.2326 - 0.1551 * x - 0.0242 / x), 0, bend};
   return {soft * (0.1689 - 0.0465 * x - 0.0267 / x - 0.1472 * x * x), 0.1, bend};
 }
 
@@ -142,7 +142,7 @@ int stress_row(int one, int other) {
                       : Rows::shear_stress(std::min(one, other), std::max(one, other));
 }
 
-/// Second differences along the surface of the stresses in it. On a bent row those of their horizontal
+/// Second differences along the surface of the stresses in it. On a curvilinear row those of their horizontal
 /// components, which are the contravariant ones along the rows where there is no traction.
 template <int D>
 PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at, const End& end) {
@@ -184,12 +184,12 @@ void add_bend(const Domain<D>& domain, const Index<D>& at, const End& end, int c
                (behind ? -0.5 : 0.5) * per_cell / cell_along(domain, at, along), behind);
 }
 
-/// What a normal traction adds to the waves that enter at a face, as the Riemann solution takes them: in bent
-/// rows in 2-D along N, times |N|, in 3-D as a vector.
+/// What a normal traction adds to the waves that enter at a face, as the Riemann solution takes them: in
+/// curvilinear rows in 2-D along N, times |N|, in 3-D as a vector.
 template <int D>
 std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>& domain, const Index<D>& at,
                                                                 int side) {
-  if (!domain.bent(at[D - 1])) return {1};
+  if (!domain.curvilinear(at[D - 1])) return {1};
   const auto normal = end_of_rows(domain, at, side).first;
   if constexpr (D == 2)
     return {std::sqrt(dot(normal, normal)), 0};
@@ -202,7 +202,7 @@ template <int D, class Real>
 RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, int side) {
   RowVector<D, Real> normal{};
   normal.z = 1;
-  if (!domain.bent(at[D - 1])) return normal;
+  if (!domain.curvilinear(at[D - 1])) return normal;
   const auto found = end_of_rows(domain, at, side).first;
   normal.x = Real(found.x);
   if constexpr (D == 3) normal.y = Real(found.y);
@@ -229,18 +229,18 @@ template <int D, class Real>
 void SurfaceTractions<D, Real>::add(const Domain<D>& domain, const Index<D>& at, std::int64_t number,
                                     std::int64_t place, std::int64_t b, const Offset& offset) {
   const End end{axis_, side_};
-  const bool bent = domain.bent(at[D - 1]);
-  if ((bent && axis_ < D - 1) || domain.anisotropic_cell(at) || !corrected(domain, at, end)) return;
+  const bool curvilinear = domain.curvilinear(at[D - 1]);
+  if ((curvilinear && axis_ < D - 1) || domain.anisotropic_cell(at) || !corrected(domain, at, end)) return;
   std::vector<PairSums<D>> pairs = {normal_sums(domain, at, end)};
-  if (bent) add_bend(domain, at, end, axis_, pairs[0]);
+  if (curvilinear) add_bend(domain, at, end, axis_, pairs[0]);
   for (int pair = 1; pair < D; ++pair) {
     const int along = axis_of_pair<D>(axis_, pair);
-    pairs.push_back(bent ? PairSums<D>(domain, at, end) : tangential_sums(domain, at, end, along));
+    pairs.push_back(curvilinear ? PairSums<D>(domain, at, end) : tangential_sums(domain, at, end, along));
     if (!thin(domain, along)) add_bend(domain, at, end, along, pairs.back());
   }
   if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) return;
   const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-  const Shares shares = shares_of(zs * zs / (zp * zp), bent);
+  const Shares shares = shares_of(zs * zs / (zp * zp), curvilinear);
   const auto c = elasticity_at(domain, at);
   Cell cell{number,
             place,

@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "solver/kernels/bent_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
 
@@ -59,7 +59,7 @@ class SurfaceTractions {
     std::int64_t number, place, b;
     std::array<Real, D> normal;  // by pair
     Real tangential, lambda, bend;
-    RowVector<D, Real> direction;  // in a bent row: N, normal to the surface
+    RowVector<D, Real> direction;  // in a curvilinear row: N, normal to the surface
     std::int32_t pattern;
   };
   std::int64_t size_ = 0;

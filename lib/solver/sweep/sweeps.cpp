@@ -17,9 +17,9 @@ namespace {
 /// Columns swept together across: their data stays in the first cache.
 constexpr std::int64_t stripe_width = 256;
 
-/// Halves of rows to prefetch after the reconstruction and after the update of a bent row: with those of its
-/// metric there are twice as many.
-constexpr int prefetched_by_bent = 3;
+/// Halves of rows to prefetch after the reconstruction and after the update of a curvilinear row: with those
+/// of its metric there are twice as many.
+constexpr int prefetched_by_curvilinear = 3;
 
 }  // namespace
 
@@ -201,7 +201,7 @@ void Sweeps<D, Real>::find_plain_lines() {
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
       const IndexRange all{0, state_.layout.padded_nx()};
       plain[std::size_t(line)] =
-          !metric_.bent(line) && !any_stencils(axis, line, all) && !anisotropic_cells_.any(line, all);
+          !metric_.curvilinear(line) && !any_stencils(axis, line, all) && !anisotropic_cells_.any(line, all);
     }
   }
 }
@@ -219,7 +219,7 @@ void Sweeps<D, Real>::split_faces(const Domain<D>& domain, double dt_s, double u
 
 template <int D, class Real>
 void Sweeps<D, Real>::keep_monotone() {
-  if (metric_.any_bent()) throw std::logic_error("no criterion of monotonicity on bent rows");
+  if (metric_.any_curvilinear()) throw std::logic_error("no criterion of monotonicity on curvilinear rows");
   monotone_ = reach_ > 0;
 }
 
@@ -233,8 +233,8 @@ Ring<Real> Sweeps<D, Real>::make_ring(int axis, std::int64_t first, std::int64_t
   const int waiting = int(rows_behind() - reach_);
   // Faces need the outgoing waves of two rows. Uniform runs need them until their row is updated.
   const int outgoing = state_.uniform_interior[std::size_t(axis)].empty() ? 2 : waiting + 2;
-  // Bent faces have two velocities: what the cells on either side see.
-  const int pairs = axis == z_axis && metric_.any_bent() ? D + D / 2 + D % 2 : pair_count();
+  // Curvilinear faces have two velocities: what the cells on either side see.
+  const int pairs = axis == z_axis && metric_.any_curvilinear() ? D + D / 2 + D % 2 : pair_count();
   return Ring<Real>(first, width, outgoing, waiting + 1, pairs);
 }
 
@@ -295,8 +295,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                                       const Real* fields, std::int64_t pitch, std::int64_t stride, Real scale,
                                       OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
-  if (metric_.bent(number))
-    return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing, prefetch);
+  if (metric_.curvilinear(number))
+    return reconstruct_curvilinear_row(axis, line, columns, fields, pitch, stride, scale, outgoing, prefetch);
   const bool whole_step = scale == 1;
   scale = scale_of(axis, line, scale);
   const std::int64_t nx = state_.layout.shape()[0];
@@ -357,17 +357,17 @@ auto Sweeps<D, Real>::pairs_from(int axis, const Real* fields, std::int64_t pitc
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns,
-                                           const Real* fields, std::int64_t pitch, std::int64_t stride,
-                                           Real scale, OutgoingWaves<Real> outgoing,
-                                           PrefetchQueue<Real>& prefetch) const {
+void Sweeps<D, Real>::reconstruct_curvilinear_row(int axis, const Index<D>& line, const IndexRange& columns,
+                                                  const Real* fields, std::int64_t pitch, std::int64_t stride,
+                                                  Real scale, OutgoingWaves<Real> outgoing,
+                                                  PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
-  prefetch.prefetch(prefetched_by_bent);
+  prefetch.prefetch(prefetched_by_curvilinear);
   const auto material = state_.material_from(line, columns.first);
   if (axis == z_axis) {
-    const BentFields<const Real> all{fields + columns.first, pitch, stride};
+    const CurvilinearFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
-    bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
+    curvilinear_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
     anisotropic_across_.reconstruct(number, columns, *kernels_[false], all, metric, material.b, scale,
                                     outgoing);
     curvilinear_stencils_.correct(order_, number, columns, {all, metric, material, scale}, corrections_,
@@ -375,12 +375,12 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
-  BentPairs<Real> pairs{};
+  CurvilinearPairs<Real> pairs{};
   for (int p = 0; p < D; ++p) {
     pairs.v[p] = fields + pairs_[axis][p].v * pitch + columns.first;
     pairs.s[p] = fields + pairs_[axis][p].s * pitch + columns.first;
   }
-  bent_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
+  curvilinear_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
   for (int p = 0; p < D; ++p)
     stencils_of(axis, p).correct(
         order_, number, columns,
@@ -394,7 +394,7 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
 
 template <int D, class Real>
 void Sweeps<D, Real>::solve_anisotropic_across(const Index<D>& at, std::int64_t row,
-                                               const IndexRange& columns, const BentSolve<Real>& face,
+                                               const IndexRange& columns, const CurvilinearSolve<Real>& face,
                                                Real sign, bool fluid) const {
   if (anisotropic_across_.empty()) return;
   const auto line = [&](std::int64_t k) {
@@ -406,12 +406,12 @@ void Sweeps<D, Real>::solve_anisotropic_across(const Index<D>& at, std::int64_t 
 }
 
 template <int D, class Real>
-BentSolve<Real> Sweeps<D, Real>::bent_face(const Index<D>& at, std::int64_t row, std::int64_t x,
-                                           Ring<Real>& ring) const {
+CurvilinearSolve<Real> Sweeps<D, Real>::curvilinear_face(const Index<D>& at, std::int64_t row, std::int64_t x,
+                                                         Ring<Real>& ring) const {
   Index<D> lo = at, hi = at;
   lo[z_axis] = row - 1, hi[z_axis] = row;
   const auto fields = [&](const Index<D>& line) {
-    return BentFields<const Real>{state_.field_row(line, 0) + x, state_.layout.row_pitch(), 0};
+    return CurvilinearFields<const Real>{state_.field_row(line, 0) + x, state_.layout.row_pitch(), 0};
   };
   const auto faces = ring.faces(row, x);
   return {ring.outgoing(row - 1, x),
@@ -427,9 +427,10 @@ BentSolve<Real> Sweeps<D, Real>::bent_face(const Index<D>& at, std::int64_t row,
 }
 
 template <int D, class Real>
-BentUpdate<Real> Sweeps<D, Real>::bent_update(const Index<D>& line, std::int64_t x, Real* fields,
-                                              std::int64_t pitch, InterfaceStates<Real> lo,
-                                              InterfaceStates<Real> hi) const {
+CurvilinearUpdate<Real> Sweeps<D, Real>::curvilinear_update(const Index<D>& line, std::int64_t x,
+                                                            Real* fields, std::int64_t pitch,
+                                                            InterfaceStates<Real> lo,
+                                                            InterfaceStates<Real> hi) const {
   const bool fluid = metric_.fluid_at_face(state_.layout.line_number(line));
   return {lo,
           hi,
@@ -449,19 +450,19 @@ SweptRows<Real> Sweeps<D, Real>::swept_rows(int axis, Real* fields, std::int64_t
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                                  std::int64_t pitch, Real scale, const Flux& flux,
-                                  const SweptRows<Real>& rows) const {
+void Sweeps<D, Real>::update_curvilinear(int axis, const Index<D>& line, const IndexRange& columns,
+                                         Real* fields, std::int64_t pitch, Real scale, const Flux& flux,
+                                         const SweptRows<Real>& rows) const {
   const auto number = state_.layout.line_number(line);
   if (axis == z_axis) {
-    const auto of = bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi);
-    bent_kernels().update_across(columns.count(), scale, of);
+    const auto of = curvilinear_update(line, columns.first, fields, pitch, flux.lo, flux.hi);
+    curvilinear_kernels().update_across(columns.count(), scale, of);
     anisotropic_across_.add_stress(number, columns, std::abs(scale), of);
     return;
   }
-  bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
-                              state_.material_from(line, columns.first),
-                              metric_.along(axis, line, columns.first).over_j, rows);
+  curvilinear_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
+                                     state_.material_from(line, columns.first),
+                                     metric_.along(axis, line, columns.first).over_j, rows);
   add_missing_stress(axis, line, columns, fields, pitch, std::abs(scale), flux);
 }
 
@@ -540,9 +541,9 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
                              swept(part.first));
   };
   filtered(axis, line, columns, fields, scale, pitch, work, remember, [&] {
-    if (metric_.bent(number)) {
-      update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
-      work.prefetch().prefetch(prefetched_by_bent);
+    if (metric_.curvilinear(number)) {
+      update_curvilinear(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
+      work.prefetch().prefetch(prefetched_by_curvilinear);
     } else {
       split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                     between_faces);
@@ -634,7 +635,7 @@ void Sweeps<D, Real>::queue_prefetch(std::int64_t line, const IndexRange& column
   if (!state_.uniform_run(line, columns.first, columns.last))
     prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
                  state_.material_layout.row_pitch(), state_.material_layout.rows());
-  if (metric_.bent(line))
+  if (metric_.curvilinear(line))
     prefetch.add(metric_.first_row(at) + columns.first, columns.count(), metric_.row_pitch(),
                  metric_.rows_of_line);
 }
@@ -760,10 +761,10 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
     const auto from = part.first - cells.first;
     const auto here = outgoing.at(from);
     const auto material = state_.material_from(at, part.first - 1, 0);
-    if (metric_.bent(line)) {
+    if (metric_.curvilinear(line)) {
       const Real* const half_face = metric_.along(0, at, part.first).half_lo;
-      bent_kernels().solve_along(part.count(), here.at(-1), here, material,
-                                 state_.material_from(at, part.first), half_face, faces.at(from));
+      curvilinear_kernels().solve_along(part.count(), here.at(-1), here, material,
+                                        state_.material_from(at, part.first), half_face, faces.at(from));
       anisotropic_cells_.solve(0, {line, line, 1}, part, here.at(-1), here, material,
                                state_.material_from(at, part.first, 0), faces.at(from), half_face);
       return;
@@ -775,7 +776,7 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
     anisotropic_cells_.solve(0, {line, line, 1}, part, here.at(-1), here, material,
                              state_.material_from(at, part.first, 0), faces.at(from));
   };
-  if (metric_.bent(line)) return solve(cells);
+  if (metric_.curvilinear(line)) return solve(cells);
   // The faces at the ends of a row have other material on one side.
   const std::int64_t nx = state_.layout.shape()[0];
   const std::int64_t inner_first = begins ? std::min(lag, cells.last) : cells.first;
@@ -837,17 +838,18 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   const auto faces = ring.faces(row, x);
   const auto material_lo = state_.material_from(line_lo, x, axis),
              material_hi = state_.material_from(line_hi, x, axis);
-  if ((has_lo && metric_.bent_row(line_lo[z_axis])) || (has_hi && metric_.bent_row(line_hi[z_axis]))) {
+  if ((has_lo && metric_.curvilinear_row(line_lo[z_axis])) ||
+      (has_hi && metric_.curvilinear_row(line_hi[z_axis]))) {
     if (axis == z_axis) {
       const bool fluid = metric_.fluid_at_face(layout.line_number(line_hi));
       const Real sign = scale < 0 ? -1 : 1;
-      const auto face = bent_face(at, row, x, ring);
-      bent_kernels().solve_across[fluid](columns.count(), sign, face);
+      const auto face = curvilinear_face(at, row, x, ring);
+      curvilinear_kernels().solve_across[fluid](columns.count(), sign, face);
       solve_anisotropic_across(at, row, columns, face, sign, fluid);
       return;
     }
     const Real* const half_face = metric_.along(axis, line_hi, x).half_lo;
-    bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi, half_face, faces);
+    curvilinear_kernels().solve_along(columns.count(), up, down, material_lo, material_hi, half_face, faces);
     anisotropic_cells_.solve(axis, lines, columns, up, down, material_lo, material_hi, faces, half_face);
     return;
   }
@@ -891,7 +893,7 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
       if (row > 0)
         add_tractions(row == rows ? edge(axis, 1) : beside_void(axis, 1), line(row - 1), wide, here);
     }
-    if (advance_bent(axis, at, row, wide, scale, ring, work)) return;
+    if (advance_curvilinear(axis, at, row, wide, scale, ring, work)) return;
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
                                 : std::span<const IndexRange>();
@@ -958,26 +960,27 @@ bool Sweeps<D, Real>::filters(int axis, const Index<D>& line, const IndexRange& 
 /// The solution at the face before a row and the update of the row `reach` before, in one loop. Returns
 /// false, and does nothing, where other work is needed between them.
 template <int D, class Real>
-bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                                   Real scale, Ring<Real>& ring, Workspace<Real>& work) {
+bool Sweeps<D, Real>::advance_curvilinear(int axis, const Index<D>& at, std::int64_t row,
+                                          const IndexRange& columns, Real scale, Ring<Real>& ring,
+                                          Workspace<Real>& work) {
   const std::int64_t rows = state_.layout.shape()[axis], done = row - reach_, x = columns.first;
   // The update of the row just before would read what the solution writes.
-  if (axis != z_axis || reach_ < 2 || done < 0 || !metric_.bent_row(done)) return false;
-  if (!metric_.bent_row(row - 1) && (row == rows || !metric_.bent_row(row))) return false;
+  if (axis != z_axis || reach_ < 2 || done < 0 || !metric_.curvilinear_row(done)) return false;
+  if (!metric_.curvilinear_row(row - 1) && (row == rows || !metric_.curvilinear_row(row))) return false;
   Index<D> here = at, advanced = at;
   here[axis] = row, advanced[axis] = done;
   if (filters(axis, advanced, columns)) return false;
   const bool fluid = metric_.fluid_at_face(state_.layout.line_number(here));
-  const auto face = bent_face(at, row, x, ring);
-  const auto of = bent_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(),
-                              ring.faces(done, x), ring.faces(done + 1, x));
-  bent_kernels().advance_across[fluid](columns.count(), scale, face, of);
+  const auto face = curvilinear_face(at, row, x, ring);
+  const auto of = curvilinear_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(),
+                                     ring.faces(done, x), ring.faces(done + 1, x));
+  curvilinear_kernels().advance_across[fluid](columns.count(), scale, face, of);
   solve_anisotropic_across(at, row, columns, face, scale < 0 ? -1 : 1, fluid);
   anisotropic_across_.add_stress(state_.layout.line_number(advanced), columns, std::abs(scale), of);
   for (auto* const filter : filters_)
     if (const auto next = filter->next(work.time(), scale); next.axis >= 0)
       prepare(*filter, next, advanced, columns, state_.field_row(advanced, 0), state_.layout.row_pitch());
-  work.prefetch().prefetch(prefetched_by_bent + 2);
+  work.prefetch().prefetch(prefetched_by_curvilinear + 2);
   return true;
 }
 
@@ -1018,7 +1021,7 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   if (std::all_of(lines.begin(), lines.end(), is_plain)) return true;
   const auto number = *lines.begin();
   for (const auto line : lines)
-    if (metric_.bent(line) || anisotropic_cells_.any(line, columns)) return false;
+    if (metric_.curvilinear(line) || anisotropic_cells_.any(line, columns)) return false;
   // Uniform runs are faster with their own loops.
   if (state_.uniform_run(number, columns.first, columns.last)) return false;
   // The outgoing waves downwards are not stored, which uniform runs would need.
@@ -1228,8 +1231,8 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
         Real* const v = state_.field_row(ghost, all[p].v);
         for (std::int64_t i = columns.first; i < columns.last; ++i) v[i] += Real(2 * j + 1) * bend[i];
       }
-      // Tractions on bent rows take all stresses.
-      if (p > 0 || axis != z_axis || !metric_.bent_row(side ? n - 1 : 0)) continue;
+      // Tractions on curvilinear rows take all stresses.
+      if (p > 0 || axis != z_axis || !metric_.curvilinear_row(side ? n - 1 : 0)) continue;
       for (int row = D; row < FieldRows<D>::count; ++row)
         if (std::none_of(all.begin(), all.end(), [row](const Pair& pair) { return pair.s == row; }))
           fill(row, image.s, nullptr, 0);

@@ -63,7 +63,7 @@ class Sweeps {
   }
   static constexpr std::size_t most_filters = 2;
   /// From now on outgoing waves keep to the criterion of monotonicity (C1). Throws std::logic_error where
-  /// rows are bent.
+  /// rows are curvilinear.
   void keep_monotone();
 
   /// A whole sweep along any axis, distributed to threads.
@@ -162,20 +162,22 @@ class Sweeps {
                        std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
                        PrefetchQueue<Real>& prefetch) const;
   /// Reconstructs a curvilinear row of a fitted grid.
-  void reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
-                            std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
-                            PrefetchQueue<Real>& prefetch) const;
+  void reconstruct_curvilinear_row(int axis, const Index<D>& line, const IndexRange& columns,
+                                   const Real* fields, std::int64_t pitch, std::int64_t stride, Real scale,
+                                   OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const;
   /// Returns what the Riemann solution reads at the face before a row, across the rows, where that face is
   /// not level or lies before or behind a curvilinear row.
-  BentSolve<Real> bent_face(const Index<D>& at, std::int64_t row, std::int64_t x, Ring<Real>& ring) const;
+  CurvilinearSolve<Real> curvilinear_face(const Index<D>& at, std::int64_t row, std::int64_t x,
+                                          Ring<Real>& ring) const;
   /// Returns what the update of a curvilinear row reads in a sweep across the rows.
-  BentUpdate<Real> bent_update(const Index<D>& line, std::int64_t x, Real* fields, std::int64_t pitch,
-                               InterfaceStates<Real> lo, InterfaceStates<Real> hi) const;
-  bool advance_bent(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
-                    Ring<Real>& ring, Workspace<Real>& work);
+  CurvilinearUpdate<Real> curvilinear_update(const Index<D>& line, std::int64_t x, Real* fields,
+                                             std::int64_t pitch, InterfaceStates<Real> lo,
+                                             InterfaceStates<Real> hi) const;
+  bool advance_curvilinear(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                           Real scale, Ring<Real>& ring, Workspace<Real>& work);
   /// Whether an effect filters the update of any of these columns.
   bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
-  const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
+  const CurvilinearKernels<Real>& curvilinear_kernels() const { return kernels_[false]->curvilinear[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     const auto& all = *kernels_[uniform];
     return anisotropic_ ? all.anisotropic_face[D - 2] : shear_ ? all.face[D - 2] : all.fluid_face;
@@ -188,8 +190,9 @@ class Sweeps {
   };
   void update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, std::int64_t pitch,
               Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
-  void update_bent(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                   std::int64_t pitch, Real scale, const Flux& flux, const SweptRows<Real>& rows) const;
+  void update_curvilinear(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                          std::int64_t pitch, Real scale, const Flux& flux,
+                          const SweptRows<Real>& rows) const;
   /// The rows of fields that a sweep changes, from a cell on.
   SweptRows<Real> swept_rows(int axis, Real* fields, std::int64_t pitch) const;
   /// `scale` of a sweep along an axis over a row: along z in proportion to how much lower than a cell it is.
@@ -204,7 +207,7 @@ class Sweeps {
   typename Cells::Pairs pairs_from(int axis, const Real* fields, std::int64_t pitch, bool whole) const;
   /// The states of faces across curvilinear rows, before `row`, beside anisotropic cells.
   void solve_anisotropic_across(const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                                const BentSolve<Real>& face, Real sign, bool fluid) const;
+                                const CurvilinearSolve<Real>& face, Real sign, bool fluid) const;
   /// What is missing in the stresses of anisotropic cells.
   void add_missing_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
                           std::int64_t pitch, Real size, const Flux& flux) const;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "solver/kernels/bent_formulas.hpp"
 #include "solver/kernels/cell_formulas.hpp"
+#include "solver/kernels/curvilinear_formulas.hpp"
 #include "solver/kernels/kernels.hpp"
 
-/// Row loops of sweeps through bent rows of a fitted grid (theory.md (F2)-(F6)), made of the same
+/// Row loops of sweeps through curvilinear rows of a fitted grid (theory.md (F2)-(F6)), made of the same
 /// reconstruction and Riemann solution as those of regular rows. Compiled once for each instruction set: no
 /// standard header here.
 namespace slipwave::solver {
@@ -13,9 +13,9 @@ namespace {
 
 /// The outgoing waves of a pair (v, J s) of a cell; js(k) is J s k cells further along the sweep.
 template <int Order, class Real, class At>
-[[gnu::always_inline]] inline void reconstruct_bent_pair(const Real* v, std::int64_t stride, const At& js,
-                                                         Real courant, Real z_lo, Real z_hi, Real& up,
-                                                         Real& down) {
+[[gnu::always_inline]] inline void reconstruct_curvilinear_pair(const Real* v, std::int64_t stride,
+                                                                const At& js, Real courant, Real z_lo,
+                                                                Real z_hi, Real& up, Real& down) {
   Weights<Order, Real> w;
   Real v_even, v_odd, t_even, t_odd;
   weights(courant, w);
@@ -28,11 +28,10 @@ template <int Order, class Real, class At>
 /// The row loop along a horizontal axis: the pairs are (v, J s), and a face has the impedance Z times its own
 /// J (F2). js(p, i, k) is J s of pair p, k cells further along the sweep than cell i, one of these cells.
 template <int Order, int Pairs, class Real, class At>
-[[gnu::always_inline]] inline void reconstruct_bent_pairs(std::int64_t first, std::int64_t last,
-                                                          std::int64_t stride, const BentPairs<Real>& pairs,
-                                                          const At& js, const MaterialRows<Real>& material,
-                                                          Real scale, const BentAlong<Real>& metric,
-                                                          OutgoingWaves<Real> outgoing) {
+[[gnu::always_inline]] inline void reconstruct_curvilinear_pairs(
+    std::int64_t first, std::int64_t last, std::int64_t stride, const CurvilinearPairs<Real>& pairs,
+    const At& js, const MaterialRows<Real>& material, Real scale, const CurvilinearAlong<Real>& metric,
+    OutgoingWaves<Real> outgoing) {
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale, twice = 2 * sign;
   const Real* __restrict half_lo = metric.half_lo, * __restrict half_hi = metric.half_hi;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
@@ -46,22 +45,24 @@ template <int Order, int Pairs, class Real, class At>
     const Real p = zp[i], z = zs[i];
     const auto of_p = [=](long k) __attribute__((always_inline)) { return js(0, i, k); };
     const auto of_s = [=](long k) __attribute__((always_inline)) { return js(1, i, k); };
-    reconstruct_bent_pair<Order>(v + i, stride, of_p, moved * p, lo * p, hi * p, up_p[i], down_p[i]);
-    reconstruct_bent_pair<Order>(w + i, stride, of_s, moved * z, lo * z, hi * z, up_s[i], down_s[i]);
+    reconstruct_curvilinear_pair<Order>(v + i, stride, of_p, moved * p, lo * p, hi * p, up_p[i], down_p[i]);
+    reconstruct_curvilinear_pair<Order>(w + i, stride, of_s, moved * z, lo * z, hi * z, up_s[i], down_s[i]);
     if constexpr (Pairs == 3) {
       const auto of_s2 = [=](long k) __attribute__((always_inline)) { return js(2, i, k); };
-      reconstruct_bent_pair<Order>(w2 + i, stride, of_s2, moved * z, lo * z, hi * z, up_s2[i], down_s2[i]);
+      reconstruct_curvilinear_pair<Order>(w2 + i, stride, of_s2, moved * z, lo * z, hi * z, up_s2[i],
+                                          down_s2[i]);
     }
   }
 }
 
 /// Along y: all that is read of a row is read once.
 template <int Order, class Real>
-[[gnu::always_inline]] inline void reconstruct_bent_along_y(std::int64_t n, std::int64_t stride,
-                                                            const BentPairs<Real>& pairs,
-                                                            const MaterialRows<Real>& material, Real scale,
-                                                            const BentAlong<Real>& metric,
-                                                            OutgoingWaves<Real> outgoing) {
+[[gnu::always_inline]] inline void reconstruct_curvilinear_along_y(std::int64_t n, std::int64_t stride,
+                                                                   const CurvilinearPairs<Real>& pairs,
+                                                                   const MaterialRows<Real>& material,
+                                                                   Real scale,
+                                                                   const CurvilinearAlong<Real>& metric,
+                                                                   OutgoingWaves<Real> outgoing) {
   const Real* half = metric.half_x;
   const Real *s = pairs.s[0], *t = pairs.s[1], *t2 = pairs.s[2];
   const std::int64_t j_stride = metric.stride;
@@ -69,13 +70,13 @@ template <int Order, class Real>
     const Real* const of = pair == 0 ? s : pair == 1 ? t : t2;
     return (half[i + k * j_stride] + half[i + k * j_stride + 1]) * of[i + k * stride];
   };
-  reconstruct_bent_pairs<Order, 3>(0, n, stride, pairs, js, material, scale, metric, outgoing);
+  reconstruct_curvilinear_pairs<Order, 3>(0, n, stride, pairs, js, material, scale, metric, outgoing);
 }
 
 /// Writes J s of cells; those of the next pair follow a pitch further.
 template <int Pairs, class Real>
 [[gnu::always_inline]] inline void put_js(std::int64_t first, std::int64_t last, const Real* __restrict half,
-                                          const BentPairs<Real>& pairs, Real* __restrict to,
+                                          const CurvilinearPairs<Real>& pairs, Real* __restrict to,
                                           std::int64_t pitch) {
   const Real* __restrict s = pairs.s[0], * __restrict t = pairs.s[1], * __restrict t2 = pairs.s[2];
   Real* __restrict to_t = to + pitch, * __restrict to_t2 = to + 2 * pitch;
@@ -91,10 +92,9 @@ template <int Pairs, class Real>
 /// Along x each value of J s is read by all cells within reach: it is computed once for all of them, of as
 /// many cells at a time as leave room in the first-level cache.
 template <int Order, int Pairs, class Real>
-[[gnu::always_inline]] inline void reconstruct_bent_along_x(std::int64_t n, const BentPairs<Real>& pairs,
-                                                            const MaterialRows<Real>& material, Real scale,
-                                                            const BentAlong<Real>& metric,
-                                                            OutgoingWaves<Real> outgoing) {
+[[gnu::always_inline]] inline void reconstruct_curvilinear_along_x(
+    std::int64_t n, const CurvilinearPairs<Real>& pairs, const MaterialRows<Real>& material, Real scale,
+    const CurvilinearAlong<Real>& metric, OutgoingWaves<Real> outgoing) {
   // Each row begins with a cache line.
   constexpr std::int64_t reach = Weights<Order, Real>::reach, most = 256, pitch = most + 16;
   static_assert(2 * reach <= pitch - most);
@@ -106,18 +106,18 @@ template <int Order, int Pairs, class Real>
     const auto js = [=](int pair, std::int64_t i, long k) __attribute__((always_inline)) {
       return of[pair * pitch + reach + (i - from) + k];
     };
-    reconstruct_bent_pairs<Order, Pairs>(from, last, 1, pairs, js, material, scale, metric, outgoing);
+    reconstruct_curvilinear_pairs<Order, Pairs>(from, last, 1, pairs, js, material, scale, metric, outgoing);
   }
 }
 
 template <int Order, int Pairs, class Real>
-void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
-                            const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
-                            OutgoingWaves<Real> outgoing) {
+void reconstruct_curvilinear_along(std::int64_t n, std::int64_t stride, const CurvilinearPairs<Real>& pairs,
+                                   const MaterialRows<Real>& material, Real scale,
+                                   const CurvilinearAlong<Real>& metric, OutgoingWaves<Real> outgoing) {
   if constexpr (Pairs == 3)
     if (stride != 1)
-      return reconstruct_bent_along_y<Order>(n, stride, pairs, material, scale, metric, outgoing);
-  reconstruct_bent_along_x<Order, Pairs>(n, pairs, material, scale, metric, outgoing);
+      return reconstruct_curvilinear_along_y<Order>(n, stride, pairs, material, scale, metric, outgoing);
+  reconstruct_curvilinear_along_x<Order, Pairs>(n, pairs, material, scale, metric, outgoing);
 }
 
 /// The Riemann solution where waves of a face of size J carry J times the traction and `up` and `down` are
@@ -131,9 +131,9 @@ template <class Real>
 
 /// (E8) at faces of impedances Z J, of all pairs, with one division.
 template <int Pairs, class Real>
-void solve_bent_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                      const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                      const Real* __restrict half_face, InterfaceStates<Real> faces) {
+void solve_curvilinear_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
+                             const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
+                             const Real* __restrict half_face, InterfaceStates<Real> faces) {
   const Real* __restrict zp_lo = lo.zp, * __restrict zp_hi = hi.zp, * __restrict zs_lo = lo.zs, * __restrict zs_hi = hi.zs;
   const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0), * __restrict up_s = below.up(1), * __restrict down_s = above.down(1);
   const Real* __restrict up_s2 = below.up(2), * __restrict down_s2 = above.down(2);
@@ -155,9 +155,9 @@ void solve_bent_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<R
 
 /// (E9) with rho J instead of rho.
 template <int D, class Real>
-void update_bent_along(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
-                       const MaterialRows<Real>& material, const Real* __restrict over_j,
-                       const SweptRows<Real>& rows) {
+void update_curvilinear_along(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
+                              const MaterialRows<Real>& material, const Real* __restrict over_j,
+                              const SweptRows<Real>& rows) {
   const Real size = scale < 0 ? -scale : scale;
   const Real* __restrict v_lo = lo.v(0), * __restrict s_lo = lo.s(0), * __restrict w_lo = lo.v(1), * __restrict t_lo = lo.s(1);
   const Real* __restrict v_hi = hi.v(0), * __restrict s_hi = hi.s(0), * __restrict w_hi = hi.v(1), * __restrict t_hi = hi.s(1);
@@ -202,30 +202,31 @@ template <int D, class Real>
 // Bodies of loops stand in functions of their own: a vector that a loop itself declares would not be kept in
 // registers.
 
-/// The outgoing waves of one cell; pointers as in BentFields and BentAcross, at the cell.
+/// The outgoing waves of one cell; pointers as in CurvilinearFields and CurvilinearAcross, at the cell.
 template <int Order, int D, class Real>
-[[gnu::always_inline]] inline void reconstruct_bent_at(const Real* field, std::int64_t pitch,
-                                                       std::int64_t stride, const Real* half_n,
-                                                       const Real* over_face, std::int64_t of_metric,
-                                                       std::int64_t next, Real courant, Real sign, Real zp,
-                                                       Real zs, Real* out, std::int64_t out_pitch) {
+[[gnu::always_inline]] inline void reconstruct_curvilinear_at(const Real* field, std::int64_t pitch,
+                                                              std::int64_t stride, const Real* half_n,
+                                                              const Real* over_face, std::int64_t of_metric,
+                                                              std::int64_t next, Real courant, Real sign,
+                                                              Real zp, Real zs, Real* out,
+                                                              std::int64_t out_pitch) {
   RowVector<D, Real> up, down;
   reconstruct_between<Order, D>(
       [=](long k) __attribute__((always_inline)) { return row_velocity<D>(field + k * stride, pitch); },
       [=](long k) __attribute__((always_inline)) {
         return row_traction<D>(field + k * stride, pitch, cell_normal<D>(half_n + k * next, of_metric, next));
       },
-      BentFace<D, Real>{face_normal<D>(half_n, of_metric), over_face[0]},
-      BentFace<D, Real>{face_normal<D>(half_n + next, of_metric), over_face[next]}, courant * zp,
+      CurvilinearFace<D, Real>{face_normal<D>(half_n, of_metric), over_face[0]},
+      CurvilinearFace<D, Real>{face_normal<D>(half_n + next, of_metric), over_face[next]}, courant * zp,
       courant * zs, sign * zp, sign * zs, zs > 0, up, down);
   put(up, out, 2 * out_pitch);
   put(down, out + out_pitch, 2 * out_pitch);
 }
 
 template <int Order, int D, class Real>
-void reconstruct_bent_across(std::int64_t n, Real scale, const BentFields<const Real>& fields,
-                             const MaterialRows<Real>& material, const BentAcross<Real>& metric,
-                             OutgoingWaves<Real> outgoing) {
+void reconstruct_curvilinear_across(std::int64_t n, Real scale, const CurvilinearFields<const Real>& fields,
+                                    const MaterialRows<Real>& material, const CurvilinearAcross<Real>& metric,
+                                    OutgoingWaves<Real> outgoing) {
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
   const Real* __restrict field = fields.first, * __restrict stretch = metric.stretch;
@@ -235,8 +236,8 @@ void reconstruct_bent_across(std::int64_t n, Real scale, const BentFields<const 
   Real* __restrict out = outgoing.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    reconstruct_bent_at<Order, D>(field + i, pitch, stride, half_n + i, over_face + i, of_metric, next,
-                                  size * b[i] * stretch[i], sign, zp[i], zs[i], out + i, out_pitch);
+    reconstruct_curvilinear_at<Order, D>(field + i, pitch, stride, half_n + i, over_face + i, of_metric, next,
+                                         size * b[i] * stretch[i], sign, zp[i], zs[i], out + i, out_pitch);
 }
 
 /// Whether a cell is fluid, as a factor.
@@ -245,16 +246,16 @@ template <class Real>
   return (zs > 0 ? Real(0) : Real(1)) * (zp > 0 ? Real(1) : Real(0));
 }
 
-/// The Riemann solution (E8) along and across the normal of a bent face from waves that outgoing_wave()
-/// resolved: velocities as the cell below the face sees them and tractions. In fluid the velocity along the
-/// face is that of the cells (F7), and other for the cell above it.
+/// The Riemann solution (E8) along and across the normal of a curvilinear face from waves that
+/// outgoing_wave() resolved: velocities as the cell below the face sees them and tractions. In fluid the
+/// velocity along the face is that of the cells (F7), and other for the cell above it.
 template <bool Fluid, class Real>
-[[gnu::always_inline]] inline void solve_bent_at(BentFace<2, Real> face, RowVector<2, Real> up,
-                                                 RowVector<2, Real> down, Real sign, const Real* cell_lo,
-                                                 const Real* cell_hi, std::int64_t pitch, Real p_lo,
-                                                 Real p_hi, Real s_lo, Real s_hi, Real* first,
-                                                 std::int64_t first_pitch, Real* seen_above,
-                                                 std::int64_t seen_pitch) {
+[[gnu::always_inline]] inline void solve_curvilinear_at(CurvilinearFace<2, Real> face, RowVector<2, Real> up,
+                                                        RowVector<2, Real> down, Real sign,
+                                                        const Real* cell_lo, const Real* cell_hi,
+                                                        std::int64_t pitch, Real p_lo, Real p_hi, Real s_lo,
+                                                        Real s_hi, Real* first, std::int64_t first_pitch,
+                                                        Real* seen_above, std::int64_t seen_pitch) {
   const Real nx = face.normal.x, over = face.over;
   // 1/|N| times 1/(Z_lo + Z_hi), with one division for both.
   const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none),
@@ -281,12 +282,12 @@ template <bool Fluid, class Real>
   first[3 * first_pitch] = nx * t_n + t_t;
 }
 template <bool Fluid, class Real>
-[[gnu::always_inline]] inline void solve_bent_at(BentFace<3, Real> face, RowVector<3, Real> up,
-                                                 RowVector<3, Real> down, Real sign, const Real* cell_lo,
-                                                 const Real* cell_hi, std::int64_t pitch, Real p_lo,
-                                                 Real p_hi, Real s_lo, Real s_hi, Real* first,
-                                                 std::int64_t first_pitch, Real* seen_above,
-                                                 std::int64_t seen_pitch) {
+[[gnu::always_inline]] inline void solve_curvilinear_at(CurvilinearFace<3, Real> face, RowVector<3, Real> up,
+                                                        RowVector<3, Real> down, Real sign,
+                                                        const Real* cell_lo, const Real* cell_hi,
+                                                        std::int64_t pitch, Real p_lo, Real p_hi, Real s_lo,
+                                                        Real s_hi, Real* first, std::int64_t first_pitch,
+                                                        Real* seen_above, std::int64_t seen_pitch) {
   const auto normal = face.normal;
   const Real over = face.over, inverse = over * over;
   Real share_p, share_s, v_p, t_p;
@@ -312,7 +313,7 @@ template <bool Fluid, class Real>
 }
 
 template <bool Fluid, int D, class Real>
-void solve_bent_across(std::int64_t n, Real sign, const BentSolve<Real>& at) {
+void solve_curvilinear_across(std::int64_t n, Real sign, const CurvilinearSolve<Real>& at) {
   const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
   const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
   const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
@@ -323,19 +324,19 @@ void solve_bent_across(std::int64_t n, Real sign, const BentSolve<Real>& at) {
   Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    solve_bent_at<Fluid>(BentFace<D, Real>{face_normal<D>(half_n + i, of_metric), over_face[i]},
-                         take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
-                         cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
-                         seen_above + i, seen_pitch);
+    solve_curvilinear_at<Fluid>(CurvilinearFace<D, Real>{face_normal<D>(half_n + i, of_metric), over_face[i]},
+                                take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
+                                cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
+                                seen_above + i, seen_pitch);
 }
 
 /// (F5) of one cell: rho J v += dt/h [T*], s += C : sym(N [v*]) dt/(h J), from velocities and tractions
 /// before and behind it; v_lo is what this cell sees.
 template <int D, class Real>
-[[gnu::always_inline]] inline void update_bent_at(Real scale, Real size, Real b, Real zp, Real zs,
-                                                  RowVector<D, Real> normal, RowVector<D, Real> v_lo,
-                                                  RowVector<D, Real> v_hi, RowVector<D, Real> t_lo,
-                                                  RowVector<D, Real> t_hi, Real* f, std::int64_t p) {
+[[gnu::always_inline]] inline void update_curvilinear_at(Real scale, Real size, Real b, Real zp, Real zs,
+                                                         RowVector<D, Real> normal, RowVector<D, Real> v_lo,
+                                                         RowVector<D, Real> v_hi, RowVector<D, Real> t_lo,
+                                                         RowVector<D, Real> t_hi, Real* f, std::int64_t p) {
   Real moved, p_modulus, mu;
   update_coefficients<true>(scale, size, b, zp, zs, moved, p_modulus, mu);
   const Real lambda = p_modulus - 2 * mu;
@@ -366,7 +367,7 @@ template <int D, class Real>
 }
 
 template <int D, class Real>
-void update_bent_across(std::int64_t n, Real scale, const BentUpdate<Real>& of) {
+void update_curvilinear_across(std::int64_t n, Real scale, const CurvilinearUpdate<Real>& of) {
   const Real size = scale < 0 ? -scale : scale;
   const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
   const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
@@ -377,14 +378,15 @@ void update_bent_across(std::int64_t n, Real scale, const BentUpdate<Real>& of) 
   Real* __restrict f = of.fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i],
-                      cell_normal<D>(half_done + i, of_metric, next), take<D>(v_lo + i, v_pitch),
-                      take<D>(v_hi + i, hi), take<D>(t_lo + i, lo), take<D>(t_hi + i, hi), f + i, p);
+    update_curvilinear_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i],
+                             cell_normal<D>(half_done + i, of_metric, next), take<D>(v_lo + i, v_pitch),
+                             take<D>(v_hi + i, hi), take<D>(t_lo + i, lo), take<D>(t_hi + i, hi), f + i, p);
 }
 
 /// The solution at a face and the update of another row in one loop: the same bits as both loops.
 template <bool Fluid, int D, class Real>
-void advance_bent_across(std::int64_t n, Real scale, const BentSolve<Real>& at, const BentUpdate<Real>& of) {
+void advance_curvilinear_across(std::int64_t n, Real scale, const CurvilinearSolve<Real>& at,
+                                const CurvilinearUpdate<Real>& of) {
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
   const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
@@ -403,25 +405,25 @@ void advance_bent_across(std::int64_t n, Real scale, const BentSolve<Real>& at, 
   Real* __restrict f = of.fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    solve_bent_at<Fluid>(BentFace<D, Real>{face_normal<D>(half_n + i, of_metric), over_face[i]},
-                         take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
-                         cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
-                         seen_above + i, seen_pitch);
-    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i],
-                      cell_normal<D>(half_done + i, of_metric, next), take<D>(v_lo + i, v_pitch),
-                      take<D>(v_hi + i, hi), take<D>(t_lo + i, lo), take<D>(t_hi + i, hi), f + i, p);
+    solve_curvilinear_at<Fluid>(CurvilinearFace<D, Real>{face_normal<D>(half_n + i, of_metric), over_face[i]},
+                                take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
+                                cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
+                                seen_above + i, seen_pitch);
+    update_curvilinear_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i],
+                             cell_normal<D>(half_done + i, of_metric, next), take<D>(v_lo + i, v_pitch),
+                             take<D>(v_hi + i, hi), take<D>(t_lo + i, lo), take<D>(t_hi + i, hi), f + i, p);
   }
 }
 
 template <int Order, int D, class Real>
-constexpr BentKernels<Real> bent_kernels = {
-    reconstruct_bent_along<Order, D, Real>,
-    solve_bent_along<D, Real>,
-    update_bent_along<D, Real>,
-    reconstruct_bent_across<Order, D, Real>,
-    {solve_bent_across<false, D, Real>, solve_bent_across<true, D, Real>},
-    update_bent_across<D, Real>,
-    {advance_bent_across<false, D, Real>, advance_bent_across<true, D, Real>}};
+constexpr CurvilinearKernels<Real> curvilinear_kernels = {
+    reconstruct_curvilinear_along<Order, D, Real>,
+    solve_curvilinear_along<D, Real>,
+    update_curvilinear_along<D, Real>,
+    reconstruct_curvilinear_across<Order, D, Real>,
+    {solve_curvilinear_across<false, D, Real>, solve_curvilinear_across<true, D, Real>},
+    update_curvilinear_across<D, Real>,
+    {advance_curvilinear_across<false, D, Real>, advance_curvilinear_across<true, D, Real>}};
 
 }  // namespace
 }  // namespace slipwave::solver

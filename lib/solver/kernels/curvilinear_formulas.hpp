@@ -4,9 +4,9 @@
 #include "solver/kernels/kernels.hpp"
 #include "solver/kernels/reconstruction.hpp"
 
-/// The formulas of a cell of a bent row of a fitted grid (theory.md (F3), (F4)), each written once: the loops
-/// of bent_rows.hpp and the stencils at interfaces are made of these. No standard header here, as in
-/// cell_formulas.hpp.
+/// The formulas of a cell of a curvilinear row of a fitted grid (theory.md (F3), (F4)), each written once:
+/// the loops of curvilinear_rows.hpp and the stencils at interfaces are made of these. No standard header
+/// here, as in cell_formulas.hpp.
 namespace slipwave::solver {
 
 /// A vector in the order of the pairs of a sweep along z: z, x, in 3-D y. The normal of a row is (1, N_x,
@@ -65,7 +65,7 @@ template <int D, class Real>
     return {Real(1), horizontal[0], horizontal[pitch]};
 }
 
-/// N of a face from the halves of its horizontal components, as in BentAcross.
+/// N of a face from the halves of its horizontal components, as in CurvilinearAcross.
 template <int D, class Real>
 [[gnu::always_inline]] inline RowVector<D, Real> face_normal(const Real* half, long pitch) {
   if constexpr (D == 2)
@@ -109,7 +109,7 @@ template <int D, class Real>
 
 /// A face between two rows: N and 1/|N|.
 template <int D, class Real>
-struct BentFace {
+struct CurvilinearFace {
   RowVector<D, Real> normal;
   Real over;
 };
@@ -118,7 +118,7 @@ struct BentFace {
 [[gnu::always_inline]] inline double root_of(double square) { return __builtin_sqrt(square); }
 
 template <int D, class Real>
-[[gnu::always_inline]] inline BentFace<D, Real> bent_face(const RowVector<D, Real>& normal) {
+[[gnu::always_inline]] inline CurvilinearFace<D, Real> curvilinear_face(const RowVector<D, Real>& normal) {
   return {normal, 1 / root_of(dot(normal, normal))};
 }
 
@@ -130,8 +130,8 @@ template <class Real>
                                                                const RowVector<2, Real>& t_p,
                                                                const RowVector<2, Real>& v_s,
                                                                const RowVector<2, Real>& t_s,
-                                                               const BentFace<2, Real>& face, Real side,
-                                                               Real zp, Real zs, bool carries_s) {
+                                                               const CurvilinearFace<2, Real>& face,
+                                                               Real side, Real zp, Real zs, bool carries_s) {
   const Real nx = face.normal.x, over_s = carries_s ? face.over : Real(0);
   return {zp * (v_p.z + nx * v_p.x) - side * face.over * (t_p.z + nx * t_p.x),
           zs * (v_s.x - nx * v_s.z) - side * over_s * (t_s.x - nx * t_s.z)};
@@ -141,18 +141,18 @@ template <class Real>
                                                                const RowVector<3, Real>& t_p,
                                                                const RowVector<3, Real>& v_s,
                                                                const RowVector<3, Real>& t_s,
-                                                               const BentFace<3, Real>& face, Real side,
-                                                               Real zp, Real zs, bool carries_s) {
+                                                               const CurvilinearFace<3, Real>& face,
+                                                               Real side, Real zp, Real zs, bool carries_s) {
   const Real length = face.over * dot(face.normal, face.normal);
   const auto p = (zp * length) * v_p - side * t_p;
   const auto s = (zs * length) * v_s - (carries_s ? side : Real(0)) * t_s;
   return s + (face.over * face.over * dot(face.normal, p - s)) * face.normal;
 }
 
-/// What the reconstruction of a bent cell reads besides fields: the normals of the faces before and behind
-/// it, c dt/h |N|/J for c = 1/Z, and the impedances, turned in a sweep back in time.
+/// What the reconstruction of a curvilinear cell reads besides fields: the normals of the faces before and
+/// behind it, c dt/h |N|/J for c = 1/Z, and the impedances, turned in a sweep back in time.
 template <int D, class Real>
-struct BentCell {
+struct CurvilinearCell {
   RowVector<D, Real> lower, upper;  // N of the faces towards lower and higher row coordinates
   Real courant_p, courant_s, zp, zs;
   bool carries_s;
@@ -161,8 +161,9 @@ struct BentCell {
 /// The outgoing waves of a cell up and down (F4) through faces `upper` and `lower`, as outgoing_wave()
 /// resolves them; v(k) and t(k) are velocity and traction k rows further.
 template <int Order, int D, class Real, class V, class T>
-[[gnu::always_inline]] inline void reconstruct_between(const V& v, const T& t, const BentFace<D, Real>& lower,
-                                                       const BentFace<D, Real>& upper, Real courant_p,
+[[gnu::always_inline]] inline void reconstruct_between(const V& v, const T& t,
+                                                       const CurvilinearFace<D, Real>& lower,
+                                                       const CurvilinearFace<D, Real>& upper, Real courant_p,
                                                        Real courant_s, Real zp, Real zs, bool carries_s,
                                                        RowVector<D, Real>& up, RowVector<D, Real>& down) {
   RowVector<D, Real> vp_even, vp_odd, tp_even, tp_odd, vs_even, vs_odd, ts_even, ts_odd;
@@ -179,11 +180,12 @@ template <int Order, int D, class Real, class V, class T>
                        Real(-1), zp, zs, carries_s);
 }
 template <int Order, int D, class Real, class V, class T>
-[[gnu::always_inline]] inline void reconstruct_bent_cell(const V& v, const T& t,
-                                                         const BentCell<D, Real>& cell,
-                                                         RowVector<D, Real>& up, RowVector<D, Real>& down) {
-  reconstruct_between<Order, D>(v, t, bent_face(cell.lower), bent_face(cell.upper), cell.courant_p,
-                                cell.courant_s, cell.zp, cell.zs, cell.carries_s, up, down);
+[[gnu::always_inline]] inline void reconstruct_curvilinear_cell(const V& v, const T& t,
+                                                                const CurvilinearCell<D, Real>& cell,
+                                                                RowVector<D, Real>& up,
+                                                                RowVector<D, Real>& down) {
+  reconstruct_between<Order, D>(v, t, curvilinear_face(cell.lower), curvilinear_face(cell.upper),
+                                cell.courant_p, cell.courant_s, cell.zp, cell.zs, cell.carries_s, up, down);
 }
 
 }  // namespace slipwave::solver
