@@ -18,11 +18,11 @@
 #include "model/fracture.hpp"
 #include "model/fracture_network.hpp"
 #include "model/model_netcdf.hpp"
-#include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/single_fracture.hpp"
 #include "model/slip_regime.hpp"
+#include "model/split_faces.hpp"
 
 using namespace slipwave;
 

@@ -434,7 +434,7 @@ void build(const Settings& settings, const cli::Context& context, Inputs inputs,
   model.history = inputs.history;
   model.medium = read_medium<D>(settings, inputs);
   auto limits = settings.limits;
-  limits.in_space = D == 3 || settings.extrude_m.has_value();
+  limits.in_3d = D == 3 || settings.extrude_m.has_value();
   check(model, limits);
   const double sampled_m = model.grid().spacing_m;
   if (settings.resample_m)

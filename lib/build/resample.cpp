@@ -9,8 +9,8 @@
 #include "base/instantiate.hpp"
 #include "geology/layers.hpp"
 #include "model/cluster_shares.hpp"
-#include "model/parted_faces.hpp"
 #include "model/single_fracture.hpp"
+#include "model/split_faces.hpp"
 #include "rock/averaging.hpp"
 #include "rock/tilted_mean.hpp"
 
@@ -100,7 +100,7 @@ void keep_prestress_of_faces(const Model<2>& from, Model<2>& to) {
       set.traces = {trace};
       const auto of = faces_of(old, trace);
       const auto across = std::size_t(of.axis), along = 1 - across;
-      for (const auto& face : parted_faces(to, set))
+      for (const auto& face : split_faces(to, set))
         for (const std::int64_t side : {1, 0}) {
           const auto at = side == 1 ? face.before() : face.behind;
           const auto cell = std::size_t(to.grid().flat(at));

@@ -23,7 +23,7 @@ std::string definition_of(const FkFacts& facts, const FkSpectra& spectra) {
          x + ": " + name_of(facts.settings.window) + ", not compensated; " +
          std::to_string(transform.zeros_in_time()) + " zeros appended to " +
          std::to_string(facts.axis.count) + " samples of dt = " + shown(facts.axis.interval_s) + " s, " +
-         std::to_string(transform.zeros_in_space()) + " to " + std::to_string(transform.receivers()) +
+         std::to_string(transform.zeros_in_3d()) + " to " + std::to_string(transform.receivers()) +
          " receivers every " + shown(transform.spacing_m(), 9) + " m" +
          (spectra.velocities().empty() ? ""
                                        : "; at k = f/c of each phase velocity c, receivers without zeros");

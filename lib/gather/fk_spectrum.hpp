@@ -38,7 +38,7 @@ class FkTransform {
   double spacing_m() const noexcept { return spacing_m_; }
   /// Zeros appended to the traces and to the receivers.
   std::size_t zeros_in_time() const noexcept { return transform_.length() - along_.size(); }
-  std::size_t zeros_in_space() const noexcept { return transform_.rows() - across_.size(); }
+  std::size_t zeros_in_3d() const noexcept { return transform_.rows() - across_.size(); }
 
   double bytes() const { return RealTransform2::bytes_for(transform_.rows(), transform_.length()); }
 

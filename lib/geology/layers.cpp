@@ -292,7 +292,7 @@ class Pile {
     return count;
   }
   /// How tops cut a cell; false: none does.
-  bool cut(const LineOfTops& over, const Index<D>& at, double centre_m, std::vector<CutInSpace>& cuts) const {
+  bool cut(const LineOfTops& over, const Index<D>& at, double centre_m, std::vector<Cut3D>& cuts) const {
     bool any = false;
     const auto n = std::size_t(at[0]);
     for (std::size_t i = 0; i < layers_; ++i) {
@@ -508,7 +508,7 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);
   LineOfTops over;
-  std::vector<CutInSpace> cuts(layers.size());
+  std::vector<Cut3D> cuts(layers.size());
   for (std::int64_t line = 0; line < lines; ++line) {
     if (line < different) over = tops_of_line(grid, layers, line);
     for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {

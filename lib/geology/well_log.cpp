@@ -367,7 +367,7 @@ void fill_from_log(Layer& layer, double spacing_m) {
   layer.material = layer.profile.front().material;
 }
 
-Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const LogChoice& choice) {
+Layer layer_of_log(const WellLog& log, double spacing_m, bool in_3d, const LogChoice& choice) {
   if (choice.block_m && !(*choice.block_m >= spacing_m * (1 - 1e-9)))
     throw Error("found blocks of " + shown(*choice.block_m) + " m, expected at least a cell, " +
                     shown(spacing_m) + " m",
@@ -390,7 +390,7 @@ Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const Lo
   }
   if (!choice.layered) return layer;
   for (const auto property : {Property::epsilon, Property::delta}) layer.others.emplace_back(property, 0);
-  if (in_space) layer.others.emplace_back(Property::gamma, 0);
+  if (in_3d) layer.others.emplace_back(Property::gamma, 0);
   return layer;
 }
 

@@ -41,10 +41,10 @@ WellLog read_well_log(const std::string& path, const LogChoice& choice);
 /// which stands for what is nearest to it (MaterialMean); below the last sample the last block continues.
 void fill_from_log(Layer& layer, double spacing_m);
 
-/// The log as a layer, filled for cells of `spacing_m`. `in_space`: the layer has gamma, too. Throws Error
+/// The log as a layer, filled for cells of `spacing_m`. `in_3d`: the layer has gamma, too. Throws Error
 /// naming the depths of a block without samples, or where fluid and solid meet, and a usage Error for blocks
 /// thinner than cells.
-Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const LogChoice& choice);
+Layer layer_of_log(const WellLog& log, double spacing_m, bool in_3d, const LogChoice& choice);
 
 /// One line: samples, depths, blocks and what they are made of.
 std::string report_of_log(const WellLog& log, const Layer& layer, const LogChoice& choice);

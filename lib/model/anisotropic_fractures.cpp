@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "model/fracture.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "rock/anisotropy.hpp"
 
 namespace slipwave {
@@ -70,7 +70,7 @@ std::optional<AnisotropicFault> fault_in_anisotropic_rock(const Model<D>& model)
   }
   const auto* const on_faces = first_on_faces(model.fracture_sets);
   if (!on_faces) return std::nullopt;
-  for (const auto& face : parted_faces(model)) {
+  for (const auto& face : split_faces(model)) {
     const auto cell = grid.flat(face.behind);
     if (is_anisotropic(medium, std::size_t(cell)))
       return AnisotropicFault{"found anisotropic rock at " + place_of(grid, cell) +

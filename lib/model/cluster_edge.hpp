@@ -51,7 +51,7 @@ SymmetricTensor<D, Real> held_strain(const SymmetricTensor<D, Real>& slip,
 }
 
 /// What of it acts along planes with a normal, over mu times their slip: the most over the directions of slip
-/// in space (S39). 0 where an edge is parallel to planes of 2-D or at right angles to them.
+/// in 3-D (S39). 0 where an edge is parallel to planes of 2-D or at right angles to them.
 template <int D>
 double held_share(const Point<D>& normal, const Point<D>& edge, double lambda, double mu);
 

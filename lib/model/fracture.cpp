@@ -12,7 +12,7 @@
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
 #include "model/cluster_edge.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "rock/anisotropy.hpp"
 #include "rock/tilted_mean.hpp"
 
@@ -168,7 +168,7 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
     for (const auto& system : set.systems)
       see(system, resolve<D, double>(system.normal, stress, traction), cell);
   }
-  for (const auto& face : parted_faces(model, set))
+  for (const auto& face : split_faces(model, set))
     for (const auto& at : {face.before(), face.behind})
       see(set.systems.front(), face.law.prestress_pa[0], std::size_t(model.grid().flat(at)));
   return least;

@@ -37,7 +37,7 @@ using FractureTrace = std::vector<Point<D>>;
 /// Cells that share slip systems: 1 to D systems. Or single fractures, all of the compliance of the one
 /// system, without spacing and whatever its normal: then the set's cells are those beside the traces, or,
 /// with `on_faces` (2-D), none: the fractures part the faces between cells that they lie on
-/// (parted_faces.hpp), and may have infinite compliances: they are open.
+/// (split_faces.hpp), and may have infinite compliances: they are open.
 template <int D>
 struct FractureSet {
   std::string name;

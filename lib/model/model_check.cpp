@@ -112,7 +112,7 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
                ", expected inf in fluid, which carries no S waves");
   if (medium.has(Property::epsilon) || medium.has(Property::delta) || medium.has(Property::tilt) ||
       medium.has(Property::gamma) || medium.has(Property::azimuth) || medium.has(Property::rotation))
-    if (const auto fault = fault_of_anisotropy(material_of(medium, cell), D == 3 || limits.in_space))
+    if (const auto fault = fault_of_anisotropy(material_of(medium, cell), D == 3 || limits.in_3d))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (medium.has(Property::cut_epsilon) || medium.has(Property::cut_delta))
     if (const auto fault = fault_of_tilted_mean(medium, cell))

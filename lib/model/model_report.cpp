@@ -11,10 +11,10 @@
 #include "io/netcdf_file.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
-#include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/single_fracture.hpp"
+#include "model/split_faces.hpp"
 #include "rock/anisotropy.hpp"
 
 namespace slipwave {
@@ -215,7 +215,7 @@ Report report_of(const Model<D>& model) {
     sets.push_back(report_of_set(model.fracture_sets[k], cells[k + 1]));
   }
   of_model.list("fractures", sets);
-  const auto faces = parted_faces(model);
+  const auto faces = split_faces(model);
   for (std::size_t c = 0; c < model.prestress_pa.size(); ++c) {
     Range range;  // elsewhere it does nothing
     for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
@@ -267,8 +267,8 @@ std::string kind_of(const NetcdfFile& file) {
   const auto rows = material_properties();
   const auto is_there = [&](const PropertyRow& row) { return row.if_absent || file.has_variable(row.name); };
   if (std::all_of(rows.begin(), rows.end(), is_there) && !file.dimension_length("time")) return "model";
-  const bool in_space = has_coordinates<2>(file) || has_coordinates<3>(file);
-  return in_space && file.dimension_length("time") ? "snapshots" : "netCDF";
+  const bool in_3d = has_coordinates<2>(file) || has_coordinates<3>(file);
+  return in_3d && file.dimension_length("time") ? "snapshots" : "netCDF";
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, report_of);

@@ -84,7 +84,7 @@ struct Flat {
     const auto [bottom, top] = reach_of(seen, 1);
     return {{from, bottom}, {to, top}};
   }
-  Point<3> in_space(const Point<2>& at) const {
+  Point<3> in_3d(const Point<2>& at) const {
     Point<3> point = origin;
     for (std::size_t axis = 0; axis < 3; ++axis) point[axis] += at[0] * along[axis] + at[1] * across[axis];
     return point;
@@ -248,7 +248,7 @@ std::map<std::size_t, double> densities_of(const Grid<3>& grid, const FractureTr
   std::map<Index<3>, std::array<double, 27>> shares;
   auto at = shares.end();
   each_piece(flat.corners, grid.spacing_m / pieces_a_cell, flat.under(box), [&](const PolygonArea& piece) {
-    const auto point = flat.in_space(piece.middle);
+    const auto point = flat.in_3d(piece.middle);
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!(point[axis] >= box.low_m[axis] && point[axis] <= box.high_m[axis])) return;
     const auto [x, y, z] = spline_shares<3>(grid, point);

@@ -8,7 +8,7 @@
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "fracture/coulomb.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "rock/anisotropy.hpp"
 
 namespace slipwave {
@@ -100,7 +100,7 @@ std::vector<std::size_t> cells_under_prestress(const Model<D>& model, std::size_
       if (model.fracture[cell] == code) cells.push_back(cell);
     return cells;
   }
-  for (const auto& face : parted_faces(model, model.fracture_sets[code - 1]))
+  for (const auto& face : split_faces(model, model.fracture_sets[code - 1]))
     for (const auto& at : {face.before(), face.behind}) {
       const auto cell = std::size_t(model.grid().flat(at));
       if (model.fracture[cell] == 0) cells.push_back(cell);
@@ -140,7 +140,7 @@ namespace {
 /// Checks the prestress of planes on faces.
 template <int D>
 void check_prestress_of_faces(const Model<D>& model) {
-  for (const auto& face : parted_faces(model)) {
+  for (const auto& face : split_faces(model)) {
     const auto& law = face.law;
     if (!law.any()) continue;
     const auto [normal, shear] = law.prestress_pa;

@@ -11,9 +11,9 @@
 #include "geology/points_file.hpp"
 #include "grid/extent.hpp"
 #include "io/input_bytes.hpp"
-#include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/spline_shares.hpp"
+#include "model/split_faces.hpp"
 
 namespace slipwave {
 namespace {
@@ -101,7 +101,7 @@ FractureCount add_on_faces(Model<2>& model, const FractureSet<2>& set) {
   for (const auto& trace : set.traces) check_on_faces(model.grid(), trace);
   const auto count_faces = [&model] {
     FractureCount count;
-    count.marked = std::int64_t(parted_faces(model, &count.left).size());
+    count.marked = std::int64_t(split_faces(model, &count.left).size());
     return count;
   };
   const auto before = count_faces();

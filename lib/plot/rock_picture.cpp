@@ -65,7 +65,7 @@ Curves speeds_by_angle(const Material& material) {
 }
 
 /// Returns the phase speeds of all three waves in 3-D, in the upright plane of an axis.
-Curves speeds_in_space(const Material& material, std::size_t axis) {
+Curves speeds_in_3d(const Material& material, std::size_t axis) {
   auto x = angles();
   if (axis == 1) x.name = "angle of the front from the vertical, towards +y";
   const auto c = elasticity_of<3>(material);
@@ -112,8 +112,8 @@ void add_attenuation(const RockAt& rock, const Attenuation& attenuation, std::ve
   if (rock.material.is_anisotropic()) {
     // In space of the plane in which both are alike, wherever it lies.
     auto x = angles();
-    if (rock.in_space) x.name = "angle of the front from axis 3 of the rock, towards axis 1";
-    const double tilt = rock.in_space ? 0 : rock.material.tilt;
+    if (rock.in_3d) x.name = "angle of the front from axis 3 of the rock, towards axis 1";
+    const double tilt = rock.in_3d ? 0 : rock.material.tilt;
     all.push_back(curves_of(x, {"quality factor", ""}, s_too, {"P", "S"}, [&](double angle) {
       return relaxing.waves(attenuation.reference_hz, (angle + tilt) * degree).quality;
     }));
@@ -134,7 +134,7 @@ std::string words_of(const RockAt& rock) {
   const auto& of = rock.material;
   std::string words = rock.place + ": vp " + shown(of.vp, 4) + " m/s, vs " + shown(of.vs, 4) + " m/s";
   if (of.is_anisotropic()) words += ", epsilon " + shown(of.epsilon, 3) + ", delta " + shown(of.delta, 3);
-  if (rock.in_space && of.gamma != 0) words += ", gamma " + shown(of.gamma, 3);
+  if (rock.in_3d && of.gamma != 0) words += ", gamma " + shown(of.gamma, 3);
   const std::pair<const char*, double> all[] = {
       {"tilt", of.tilt}, {"azimuth", of.azimuth}, {"rotation", of.rotation}};
   for (const auto& [name, value] : all)
@@ -172,8 +172,8 @@ RockAt rock_at(const Model<D>& model, const Point<D>& point_m) {
 
 Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuation, Page page) {
   std::vector<Curves> all;
-  if (rock.in_space && rock.material.is_anisotropic_in_space())
-    all = {speeds_in_space(rock.material, 0), speeds_in_space(rock.material, 1)};
+  if (rock.in_3d && rock.material.is_anisotropic_in_3d())
+    all = {speeds_in_3d(rock.material, 0), speeds_in_3d(rock.material, 1)};
   else
     all = {speeds_by_angle(rock.material)};
   if (attenuation && rock.attenuates()) add_attenuation(rock, *attenuation, all);

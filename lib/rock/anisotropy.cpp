@@ -15,7 +15,7 @@ namespace {
 /// Directions from the vertical to the horizontal among which the largest and smallest are searched.
 constexpr int directions = 180;
 /// Directions along both angles of an octant among which the largest and smallest are searched in 3-D.
-constexpr int directions_in_space = 24;
+constexpr int directions_in_3d = 24;
 
 /// Calls what(speeds) for directions of a quadrant, in 3-D of an octant: upright rock is alike in all of
 /// them.
@@ -29,10 +29,9 @@ void each_direction(const Material& material, const What& what) {
       what(phase_speeds<2>(c, material.rho, {std::sin(angle), std::cos(angle)}));
     }
   } else {
-    for (int n = 0; n <= directions_in_space; ++n)
-      for (int k = 0; k <= directions_in_space; ++k) {
-        const double angle = n * right_angle / directions_in_space,
-                     azimuth = k * right_angle / directions_in_space;
+    for (int n = 0; n <= directions_in_3d; ++n)
+      for (int k = 0; k <= directions_in_3d; ++k) {
+        const double angle = n * right_angle / directions_in_3d, azimuth = k * right_angle / directions_in_3d;
         what(phase_speeds<3>(
             c, material.rho,
             {std::sin(angle) * std::cos(azimuth), std::sin(angle) * std::sin(azimuth), std::cos(angle)}));
@@ -55,7 +54,7 @@ std::int64_t anisotropic_cells(const Medium<D>& medium) {
 template <int D>
 void complete_anisotropy(Medium<D>& medium) {
   constexpr std::array plane = {Property::epsilon, Property::delta};
-  constexpr std::array in_space = {Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2};
+  constexpr std::array in_3d = {Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2};
   const auto any = [&](const auto& properties) {
     return std::any_of(properties.begin(), properties.end(),
                        [&](Property property) { return medium.has(property); });
@@ -63,7 +62,7 @@ void complete_anisotropy(Medium<D>& medium) {
   const auto complete = [&](Property property, const Field<D>& with) {
     if (!medium.has(property)) medium[property] = with;
   };
-  const bool orthorhombic = any(in_space);
+  const bool orthorhombic = any(in_3d);
   const bool wanted = any(plane) || orthorhombic || (D == 3 && medium.has(Property::gamma));
   for (const auto property : plane)
     if (wanted) complete(property, Field<D>(medium.grid()));
@@ -141,7 +140,7 @@ double fastest_along_grid(const Material& material) {
   return fastest;
 }
 
-double fastest_in_space(const Material& material) {
+double fastest_in_3d(const Material& material) {
   // About its own axes rock is what it is about any, and alike in all octants.
   const auto c = upright_elasticity<3>(material);
   if (!material.orthorhombic)
@@ -177,7 +176,7 @@ Medium<D> in_slowest_directions(const Medium<D>& medium) {
   PlaneSpeeds of_last;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
     const auto material = material_of(medium, cell);
-    if (!(D == 3 ? material.is_anisotropic_in_space() : material.is_anisotropic())) continue;
+    if (!(D == 3 ? material.is_anisotropic_in_3d() : material.is_anisotropic())) continue;
     if (!(material == last)) of_last = slowest_speeds<D>(last = material);
     slowest.vp[cell] = float(of_last.p);
     slowest.vs[cell] = float(of_last.s);
@@ -205,8 +204,8 @@ std::optional<AnisotropyFault> fault_of_fluid(const Material& of) {
 
 const char* const gives_energy = "or the rock would give energy; ";
 
-/// What keeps strains in space from costing energy; those in the plane of x and z do.
-std::optional<AnisotropyFault> fault_in_space(const Material& of) {
+/// What keeps strains in 3-D from costing energy; those in 2-D do.
+std::optional<AnisotropyFault> fault_in_3d(const Material& of) {
   const auto above = [](Property property, double value, double least, const std::string& rest) {
     return AnisotropyFault{property, "is " + shown(value, 6) + ", expected above " + shown(least, 4) + rest};
   };
@@ -257,20 +256,20 @@ std::optional<AnisotropyFault> fault_in_space(const Material& of) {
 namespace {
 
 /// Angles of what has no axes, and those that turn them out of a plane.
-std::optional<AnisotropyFault> fault_of_axes(const Material& of, bool in_space) {
-  const bool has_axes = in_space ? of.is_anisotropic_in_space() : of.is_anisotropic();
+std::optional<AnisotropyFault> fault_of_axes(const Material& of, bool in_3d) {
+  const bool has_axes = in_3d ? of.is_anisotropic_in_3d() : of.is_anisotropic();
   const std::pair<Property, double> all[] = {
       {Property::tilt, of.tilt}, {Property::azimuth, of.azimuth}, {Property::rotation, of.rotation}};
   for (const auto& [property, value] : all) {
     if (value == 0) continue;
     const std::string is = "is " + shown(value, 6) + ", expected 0 ";
-    if (!in_space && property != Property::tilt)
+    if (!in_3d && property != Property::tilt)
       return AnisotropyFault{property,
                              is + "in 2-D, where beds deepen along x; turn the section, or leave the " +
                                  row_of(property).name + " out"};
     if (!has_axes)
       return AnisotropyFault{property,
-                             is + "where epsilon" + (in_space ? ", delta and gamma" : " and delta") +
+                             is + "where epsilon" + (in_3d ? ", delta and gamma" : " and delta") +
                                  " are 0: isotropic rock has no axis; set one of them, or leave the " +
                                  row_of(property).name + " out there"};
   }
@@ -279,11 +278,11 @@ std::optional<AnisotropyFault> fault_of_axes(const Material& of, bool in_space) 
 
 }  // namespace
 
-std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_space) {
+std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_3d) {
   const double vp = material.vp, vs = material.vs, rho = material.rho;
   const double epsilon = material.epsilon, delta = material.delta;
-  if (auto fault = fault_of_axes(material, in_space)) return fault;
-  if (!material.is_anisotropic_in_space() || rho == 0) return {};
+  if (auto fault = fault_of_axes(material, in_3d)) return fault;
+  if (!material.is_anisotropic_in_3d() || rho == 0) return {};
   if (vs == 0) return fault_of_fluid(material);
   // (c13 + c55)^2 must not be negative, and c11 c33 must be more than c13^2.
   const double ratio = vs * vs / (vp * vp), least_delta = (ratio - 1) / 2;
@@ -299,7 +298,7 @@ std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, boo
                                " with a delta of " + shown(delta, 6) +
                                ": c11 c33 must be more than c13^2, or the rock would give " +
                                "energy; raise epsilon or lower delta"};
-  return in_space ? fault_in_space(material) : std::nullopt;
+  return in_3d ? fault_in_3d(material) : std::nullopt;
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, any_orthorhombic);

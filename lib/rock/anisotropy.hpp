@@ -71,7 +71,7 @@ double fastest_p_speed_at_most(const Material& material);
 double fastest_along_grid(const Material& material);
 /// What the largest speed of waves in any direction in 3-D is, m/s; where all horizontal directions are alike
 /// at most.
-double fastest_in_space(const Material& material);
+double fastest_in_3d(const Material& material);
 /// The medium with the speeds of the slowest directions as those of an isotropic one: wavelengths are nowhere
 /// shorter.
 template <int D>
@@ -85,6 +85,6 @@ struct AnisotropyFault {
 /// What keeps the stiffness from being positive, a fluid with epsilon or delta, a tilt of what has no axis;
 /// nothing where all is well. In space stiffness must be positive for all strains, else for those in the
 /// plane of x and z.
-std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_space = false);
+std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_3d = false);
 
 }  // namespace slipwave

@@ -21,8 +21,8 @@ bool MaterialMean::add(const Material& part, double volume) {
   if (part.vs > 0) compliance_s_ += volume / (part.rho * part.vs * part.vs);
   if (part.vs > 0) {
     const auto c = upright_elasticity<3>(part);
-    anisotropic_ = anisotropic_ || part.is_anisotropic_in_space();
-    if (part.is_anisotropic_in_space() && volume > tilted_volume_) {
+    anisotropic_ = anisotropic_ || part.is_anisotropic_in_3d();
+    if (part.is_anisotropic_in_3d() && volume > tilted_volume_) {
       tilted_volume_ = volume;
       tilt_ = part.tilt, azimuth_ = part.azimuth, rotation_ = part.rotation;
     }
@@ -56,7 +56,7 @@ Material MaterialMean::of_layers() const {
                     plate_xy_ / volume_ + c33 * ratio * ratio_y, c33 * ratio, c33 * ratio_y}),
       mass_ / volume_);
   // Rounding makes no isotropic rock of one with an axis; parts may make one.
-  if (mean.is_anisotropic_in_space()) mean.tilt = tilt_, mean.azimuth = azimuth_, mean.rotation = rotation_;
+  if (mean.is_anisotropic_in_3d()) mean.tilt = tilt_, mean.azimuth = azimuth_, mean.rotation = rotation_;
   return mean;
 }
 

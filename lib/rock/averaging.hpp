@@ -26,9 +26,9 @@ struct Material {
   // Of the axes in 3-D, degrees: where beds deepen, and their turn about the tilted axis (theory.md (O6)).
   double azimuth = 0, rotation = 0;
 
-  /// In the plane of x and z, and in space.
+  /// In 2-D and in 3-D.
   bool is_anisotropic() const { return epsilon != 0 || delta != 0; }
-  bool is_anisotropic_in_space() const { return is_anisotropic() || gamma != 0 || orthorhombic; }
+  bool is_anisotropic_in_3d() const { return is_anisotropic() || gamma != 0 || orthorhombic; }
   bool operator==(const Material&) const = default;
 };
 

@@ -75,7 +75,7 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
 }
 
 /// What the largest speed along the axes of the grid is at most where those of the rock are turned, m/s: in
-/// 2-D of quasi-P waves in any direction, in space that of these axes or, where rows dip, of any direction;
+/// 2-D of quasi-P waves in any direction, in 3-D that of these axes or, where rows dip, of any direction;
 /// asked for once of cells that are alike.
 template <int D>
 class FastestOfTilted {
@@ -85,7 +85,7 @@ class FastestOfTilted {
     if (D == 2) return fastest_p_speed_at_most(material);
     if (!(material == last_) || dips != dips_) {
       last_ = material, dips_ = dips;
-      speed_ = dips ? fastest_in_space(material) : fastest_along_grid(material);
+      speed_ = dips ? fastest_in_3d(material) : fastest_along_grid(material);
     }
     return speed_;
   }

@@ -55,7 +55,7 @@ struct Plane {
 };
 
 /// Nearest to the depths at the four edges, by least squares.
-Plane plane_of(const CutInSpace& cut) {
+Plane plane_of(const Cut3D& cut) {
   const Cut &a = cut.low_y, &b = cut.high_y;
   return {(a.low + a.high + b.low + b.high) / 4, (a.high - a.low + b.high - b.low) / 2,
           (b.low - a.low + b.high - a.high) / 2};
@@ -92,13 +92,13 @@ double volume_above(const std::vector<Plane>& planes) {
 
 }  // namespace
 
-double CutInSpace::least() const {
+double Cut3D::least() const {
   if (low_y == high_y) return std::min(low_y.low, low_y.high);
   const auto plane = plane_of(*this);
   return plane.middle - plane.reach();
 }
 
-double CutInSpace::largest() const {
+double Cut3D::largest() const {
   if (low_y == high_y) return std::max(low_y.low, low_y.high);
   const auto plane = plane_of(*this);
   return plane.middle + plane.reach();
@@ -120,7 +120,7 @@ std::vector<double> shares_of_cell(std::span<const Cut> tops) {
   return shares;
 }
 
-std::vector<double> shares_of_cell(std::span<const CutInSpace> tops) {
+std::vector<double> shares_of_cell(std::span<const Cut3D> tops) {
   if (std::all_of(tops.begin(), tops.end(), [](const auto& top) { return top.low_y == top.high_y; })) {
     std::vector<Cut> section;
     for (const auto& top : tops) section.push_back(top.low_y);

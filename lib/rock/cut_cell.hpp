@@ -16,7 +16,7 @@ struct Cut {
 
 /// A layer's top across a cell in 3-D: its depths at the four upright edges, at the low and the high side in
 /// y. A plane is exact; any other top is replaced by the plane nearest to the four depths.
-struct CutInSpace {
+struct Cut3D {
   Cut low_y, high_y;
   /// The least and the largest depth of that plane in the cell.
   double least() const;
@@ -28,6 +28,6 @@ struct CutInSpace {
 /// one, behind them, what lies above all. The shares sum to 1 (to rounding) and none is negative.
 std::vector<double> shares_of_cell(std::span<const Cut> tops);
 /// In 3-D; where no top changes along y, the same bits as of the section.
-std::vector<double> shares_of_cell(std::span<const CutInSpace> tops);
+std::vector<double> shares_of_cell(std::span<const Cut3D> tops);
 
 }  // namespace slipwave

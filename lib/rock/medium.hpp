@@ -73,7 +73,7 @@ class Medium {
 struct MediumLimits {
   bool allow_auxetic = false;  // vs > vp/sqrt(2), that is lambda < 0
   bool allow_slow = false;     // speeds and densities that no rock, soil or fluid has
-  bool in_space = false;       // a section of what becomes a model in 3-D: rock must be one in space
+  bool in_3d = false;          // a section of what becomes a model in 3-D: rock must be one there
 };
 
 }  // namespace slipwave

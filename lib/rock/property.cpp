@@ -25,7 +25,7 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
 
 /// Returns the row of a parameter of rock in 3-D; as 0 in files of models that lack it, complete_anisotropy()
 /// says what it is then.
-PropertyRow in_space(const std::string& name, const std::string& long_name) {
+PropertyRow in_3d(const std::string& name, const std::string& long_name) {
   auto row = thomsen(name, "");
   row.long_name = long_name;
   row.help = long_name + ", in 3-D, a file or a number";
@@ -113,11 +113,11 @@ std::vector<PropertyRow> property_rows() {
            .if_absent = PropertyRow::infinite},
           thomsen("epsilon", "axis of symmetry, 0 = isotropic"),
           thomsen("delta", "axis of symmetry, 0 = isotropic"),
-          in_space("gamma", "Thomsen's gamma of layered rock"),
-          in_space("epsilon1", "Tsvankin's epsilon(1) of orthorhombic rock"),
-          in_space("delta1", "Tsvankin's delta(1) of orthorhombic rock"),
-          in_space("delta3", "Tsvankin's delta(3) of orthorhombic rock"),
-          in_space("gamma2", "Tsvankin's gamma(2) of orthorhombic rock"),
+          in_3d("gamma", "Thomsen's gamma of layered rock"),
+          in_3d("epsilon1", "Tsvankin's epsilon(1) of orthorhombic rock"),
+          in_3d("delta1", "Tsvankin's delta(1) of orthorhombic rock"),
+          in_3d("delta3", "Tsvankin's delta(3) of orthorhombic rock"),
+          in_3d("gamma2", "Tsvankin's gamma(2) of orthorhombic rock"),
           tilt(),
           azimuth(),
           rotation(),

@@ -108,7 +108,7 @@ SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const 
   // Towards which P moves, and S waves of isotropic rock.
   const Point<3> usual =
       shear ? Point<3>{direction[2] * along[0], direction[2] * along[1], -level} : direction;
-  if (!rock.is_anisotropic_in_space()) return {shear ? rock.vs : rock.vp, usual};
+  if (!rock.is_anisotropic_in_3d()) return {shear ? rock.vs : rock.vp, usual};
   const auto waves = waves_along<3>(elasticity_of<3>(rock), direction);
   const auto share = [&](std::size_t wave) { return dot_product(waves.vectors[wave], usual); };
   const std::size_t wave = !shear ? 0 : std::abs(share(1)) >= std::abs(share(2)) ? 1 : 2;

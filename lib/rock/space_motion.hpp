@@ -8,7 +8,7 @@
 
 namespace slipwave {
 
-// Plane waves in space in rock that may be anisotropic (theory.md (A18)).
+// Plane waves in 3-D in rock that may be anisotropic (theory.md (A18)).
 
 /// A wave of one direction of its front: phase speed, m/s, and the direction of its motion, a unit vector.
 struct SpaceMotion {

@@ -101,7 +101,7 @@ std::optional<StiffnessFault> fault_of_plane(const Elasticity<2>& plane) {
   return fault_of_pair(Modulus::c13, c13, c11, c33, c55, "c11 c33");
 }
 
-std::optional<StiffnessFault> fault_in_space(const Elasticity<3>& c, bool alike) {
+std::optional<StiffnessFault> fault_in_3d(const Elasticity<3>& c, bool alike) {
   if (!(c(6, 6) > 0)) return fault(Modulus::c66, c(6, 6), "more than 0, as c55 is");
   if (alike) {
     const double most = c(1, 1) - c(1, 3) * c(1, 3) / c(3, 3);
@@ -198,7 +198,7 @@ std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {
   }
   if (auto of_plane = fault_of_plane(plane)) return of_plane;
   if (!given[Modulus::c66]) return {};
-  return fault_in_space(completed(given, plane), !given[Modulus::c22]);
+  return fault_in_3d(completed(given, plane), !given[Modulus::c22]);
 }
 
 Material material_of_given(const GivenStiffness& given, double rho) {

@@ -24,7 +24,7 @@ struct GivenStiffness {
   std::optional<double>& operator[](Modulus of) { return moduli[std::size_t(of)]; }
   const std::optional<double>& operator[](Modulus of) const { return moduli[std::size_t(of)]; }
   bool any() const;
-  /// Throws a usage Error unless they are of one kind: c11, c13, c33 and c55 always; c66, too, in space; c22,
+  /// Throws a usage Error unless they are of one kind: c11, c13, c33 and c55 always; c66, too, in 3-D; c22,
   /// c44, c12 and c23, too, of orthorhombic rock; c15 and c35, too, of a plane in which axes of symmetry are
   /// tilted.
   void check_kind() const;

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "rock/coefficients.hpp"
 #include "rock/tilted_mean.hpp"
 #include "scene/subdomains.hpp"

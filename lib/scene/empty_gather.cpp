@@ -10,7 +10,7 @@ namespace slipwave {
 namespace {
 
 template <int D>
-std::array<double, 3> in_space(const Point<D>& point) {
+std::array<double, 3> in_3d(const Point<D>& point) {
   if constexpr (D == 2) return {point[0], 0, point[1]};
   if constexpr (D == 3) return point;
 }
@@ -66,7 +66,7 @@ Gather empty_gather(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   TraceHeader header;
   header.shot = scene.survey.number_of(shot);
   header.source_m =
-      scene.survey.spreads ? scene.survey.spreads->map_source_of(shot) : in_space<D>(source.position_m);
+      scene.survey.spreads ? scene.survey.spreads->map_source_of(shot) : in_3d<D>(source.position_m);
   const auto receivers = scene.survey.receivers_of(shot);
   std::vector<Point<D>> points = {source.position_m};
   for (const auto& receiver : receivers) points.push_back(receiver.point_m);

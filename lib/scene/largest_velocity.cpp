@@ -8,7 +8,7 @@
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "grid/tensor.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 
 namespace slipwave {
 namespace {

@@ -97,8 +97,8 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
 }
 
 /// No wave is faster.
-double fastest_of(const Material& rock, bool in_space) {
-  return in_space && rock.is_anisotropic_in_space() ? fastest_in_space(rock) : fastest_p_speed_at_most(rock);
+double fastest_of(const Material& rock, bool in_3d) {
+  return in_3d && rock.is_anisotropic_in_3d() ? fastest_in_3d(rock) : fastest_p_speed_at_most(rock);
 }
 
 /// The wave of t = 0 is that of the layers: it must not have come to any cell that differs from them.

@@ -14,7 +14,7 @@
 #include "base/parse.hpp"
 #include "build/model_in_cells.hpp"
 #include "grid/locate.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "rock/anisotropy.hpp"
 #include "rock/coefficients.hpp"
 #include "rock/tilted_mean.hpp"
@@ -273,7 +273,7 @@ void check_monotone(const Scene<D>& scene) {
 
 /// What does not go with fractures that part faces.
 template <int D>
-void check_parted(const Scene<D>& scene) {
+void check_split(const Scene<D>& scene) {
   const auto* const found = first_on_faces(scene.model.fracture_sets);
   if (!scene.with_slip || !found) return;
   const auto refuse = [&](const std::string& what, const std::string& wanted) {
@@ -327,7 +327,7 @@ void check(const Scene<D>& scene) {
         "found time order " + std::to_string(numerics.time_order) + ", expected " + alternatives(time_orders),
         ErrorKind::usage);
   if (numerics.monotone) check_monotone(scene);
-  check_parted(scene);
+  check_split(scene);
   const double limit = stable_time_step_s(scene), largest = largest_cfl(numerics);
   if (numerics.time_step_s) {
     check_positive(*numerics.time_step_s, "--time-step", "s");

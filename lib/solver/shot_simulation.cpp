@@ -83,8 +83,8 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
   auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                             scene.subdomain, scene.numerics.order);
   const auto& model = scene.model;
-  if (scene.with_slip) domain.parted = parted_faces(model), domain.soft = soft_cells(domain, model);
-  for (auto& face : domain.parted) face.behind = domain.computed_cell(face.behind);
+  if (scene.with_slip) domain.split = split_faces(model), domain.soft = soft_cells(domain, model);
+  for (auto& face : domain.split) face.behind = domain.computed_cell(face.behind);
   if (scene.slips())
     domain.drop_anisotropic_cells(
         [&](std::size_t cell) { return model.fracture[cell] != 0 && is_tilted_mean(model.medium, cell); });

@@ -141,7 +141,7 @@ class AttenuatingBox {
     if (medium_.is_void(cell)) return 0;
     const double volume = std::pow(domain_.grid.spacing_m, D);
     if constexpr (D == 3)
-      return volume * of_cell_in_space(cell, relaxed, anisotropic);
+      return volume * of_cell_in_3d(cell, relaxed, anisotropic);
     else
       return volume * of_cell_in_plane(cell, relaxed);
   }
@@ -164,7 +164,7 @@ class AttenuatingBox {
     return sum;
   }
   /// The two parts of (Q11). Blocks without anisotropic cells hold the mean and what is left of the stress.
-  double of_cell_in_space(std::size_t cell, const double* relaxed, bool anisotropic) const {
+  double of_cell_in_3d(std::size_t cell, const double* relaxed, bool anisotropic) const {
     using Tensor = std::array<double, 6>;
     constexpr std::int64_t block = solver::relaxation_block;
     const auto shares = relaxation_.shares(cell);
@@ -255,7 +255,7 @@ TEST(Attenuation, OnlyTakesEnergyFromAnisotropicMediaOfAnyQ) {
 }
 
 /// Any stiffness about any axes, upright and isotropic rock and water, in lumps of so many cells.
-Medium<3> rocks_in_space(const Index<3>& shape, std::int64_t block, unsigned seed) {
+Medium<3> rocks_in_3d(const Index<3>& shape, std::int64_t block, unsigned seed) {
   Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
   for (const auto property : {Property::epsilon1, Property::tilt, Property::azimuth, Property::rotation})
     medium[property] = Field<3>(medium.grid());
@@ -295,7 +295,7 @@ TEST(Attenuation, OnlyTakesEnergyFromRockInSpaceOfAnyQ) {
   const std::vector<int> orders = {7, 5, 11, 3, 1, 9};
   for (int n = 0; n < media; ++n) {
     SCOPED_TRACE(n);
-    const auto medium = rocks_in_space({20, 9, 10}, n % 2 ? 4 : 1, unsigned(n) + 3);
+    const auto medium = rocks_in_3d({20, 9, 10}, n % 2 ? 4 : 1, unsigned(n) + 3);
     AttenuatingBox<3> box(medium, unsigned(n) + 1, 2, n % 4 < 2 ? EdgeLaw::rigid : EdgeLaw::mirror,
                           orders[std::size_t(n) % orders.size()]);
     expect_falling_energy(box, steps, 0.8);

@@ -58,8 +58,8 @@ Lab<Real>::Lab(const Setup& setup)
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
-  domain_.parted = parted_faces(model);
-  for (auto& face : domain_.parted) face.behind = domain_.computed_cell(face.behind);
+  domain_.split = split_faces(model);
+  for (auto& face : domain_.split) face.behind = domain_.computed_cell(face.behind);
   domain_.soft = solver::soft_cells(domain_, model);
   state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.material_kind());
   solver::fill_material(state_, domain_, model.medium, dt_s_);

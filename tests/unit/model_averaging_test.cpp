@@ -28,7 +28,7 @@ std::vector<double> counted_shares(const std::vector<Cut>& tops) {
 }
 
 /// The same in 3-D, by 200 x 200 x 400 points.
-std::vector<double> counted_shares(const std::vector<CutInSpace>& tops) {
+std::vector<double> counted_shares(const std::vector<Cut3D>& tops) {
   constexpr int n = 200, deep = 400;
   std::vector<double> shares(tops.size() + 1, 0.), depths(tops.size());
   for (int a = 0; a < n; ++a)
@@ -48,7 +48,7 @@ std::vector<double> counted_shares(const std::vector<CutInSpace>& tops) {
 }
 
 /// A plane by its depth at x = y = 0 and what it gains across the cell along x and along y.
-CutInSpace plane(double depth, double along_x, double along_y) {
+Cut3D plane(double depth, double along_x, double along_y) {
   return {{depth, depth + along_x}, {depth + along_y, depth + along_x + along_y}};
 }
 
@@ -114,27 +114,27 @@ TEST(CutCell, SharesAreExactAreas) {
 // Proves (M1).
 TEST(CutCell, SharesInSpaceAreExactVolumes) {
   // A corner of the cell's floor: legs of 0.5, 0.8 and 0.25.
-  const auto corner = shares_of_cell(std::vector<CutInSpace>{plane(0.75, 0.5, 0.25 / 0.8)});
+  const auto corner = shares_of_cell(std::vector<Cut3D>{plane(0.75, 0.5, 0.25 / 0.8)});
   EXPECT_NEAR(corner[0], 0.5 * 0.8 * 0.25 / 6, 1e-15);
   EXPECT_NEAR(corner[1], 1 - 0.1 / 6, 1e-15);
   // Through the middle at any slope, also from above the cell to below it.
   for (const double slope : {0.3, 2., 50.})
-    EXPECT_NEAR(shares_of_cell(std::vector<CutInSpace>{plane(0.5 - slope, 1.5 * slope, slope / 2)})[0], 0.5,
+    EXPECT_NEAR(shares_of_cell(std::vector<Cut3D>{plane(0.5 - slope, 1.5 * slope, slope / 2)})[0], 0.5,
                 1e-14);
-  EXPECT_EQ(shares_of_cell(std::vector<CutInSpace>{plane(-2, 1, 1)}), (std::vector<double>{1, 0}));
-  EXPECT_EQ(shares_of_cell(std::vector<CutInSpace>{plane(1, 7, 1)}), (std::vector<double>{0, 1}));
+  EXPECT_EQ(shares_of_cell(std::vector<Cut3D>{plane(-2, 1, 1)}), (std::vector<double>{1, 0}));
+  EXPECT_EQ(shares_of_cell(std::vector<Cut3D>{plane(1, 7, 1)}), (std::vector<double>{0, 1}));
   // A seam between two parallel planes, cut off by nothing; and the same plane twice, which leaves nothing
   // between.
-  const auto seam = shares_of_cell(std::vector<CutInSpace>{plane(0.3, 0.1, 0.2), plane(0.4, 0.1, 0.2)});
+  const auto seam = shares_of_cell(std::vector<Cut3D>{plane(0.3, 0.1, 0.2), plane(0.4, 0.1, 0.2)});
   EXPECT_NEAR(seam[0], 0.1, 1e-15);
   EXPECT_NEAR(seam[2], 0.45, 1e-15);
-  EXPECT_NEAR(shares_of_cell(std::vector<CutInSpace>(2, plane(0.3, 0.1, 0.2)))[0], 0, 1e-15);
+  EXPECT_NEAR(shares_of_cell(std::vector<Cut3D>(2, plane(0.3, 0.1, 0.2)))[0], 0, 1e-15);
 }
 
 TEST(CutCell, SharesInSpaceAreThoseOfTheSectionWhereTopsAre) {
   // Along y instead of x: as the section, but for rounding.
   const std::vector<Cut> section = {{-0.5, 1.5}, {0.4, 0.4}, {1.4, -0.2}};
-  std::vector<CutInSpace> along_x, along_y;
+  std::vector<Cut3D> along_x, along_y;
   for (const auto& cut : section) {
     along_x.push_back({cut, cut});
     along_y.push_back({{cut.low, cut.low}, {cut.high, cut.high}});
@@ -145,7 +145,7 @@ TEST(CutCell, SharesInSpaceAreThoseOfTheSectionWhereTopsAre) {
 }
 
 TEST(CutCell, SharesInSpaceAreThoseOfManyPoints) {
-  const std::vector<std::vector<CutInSpace>> piles = {
+  const std::vector<std::vector<Cut3D>> piles = {
       {plane(0.2, 0.1, 0.3), plane(0.6, 0.2, -0.3)},
       {plane(-0.5, 2, 0.7), plane(0.4, 0, 0), plane(1.4, -1.2, -0.9)},
       {plane(0.7, 0.2, -0.4), plane(0.3, -0.5, 1.1), plane(0.5, 0.9, -1.3), plane(0.9, 0.1, 0.1)},

@@ -29,7 +29,7 @@ TEST(GivenStiffness, MakesTheRockThatHasIt) {
   // Fluid, and rock whose stiffnesses are those of isotropic rock but for the rounding of floats.
   EXPECT_EQ(material_of_given(of_plane(2.25e9, 2.25e9, 2.25e9, 0), 1000), (Material{1500, 0, 1000}));
   const auto isotropic = material_of_given(of_plane(20e9, 8e9 * (1 + 1e-8), 20e9 * (1 - 1e-8), 6e9), 2000);
-  EXPECT_FALSE(isotropic.is_anisotropic_in_space());
+  EXPECT_FALSE(isotropic.is_anisotropic_in_3d());
 }
 
 // Proves (O9).

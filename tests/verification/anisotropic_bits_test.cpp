@@ -180,7 +180,7 @@ Scene<2> fitted_in_plane(bool hills, Cut cut) {
   set_times(scene, cut == Cut::columns ? 0.02 : 0.1);
   return scene;
 }
-Scene<3> fitted_in_space(bool hills, Cut cut) {
+Scene<3> fitted_in_3d(bool hills, Cut cut) {
   const Material rock = hills              ? turned_by(cracked, 30, 20, 15)
                         : cut == Cut::rows ? turned_by(shale, 30, 40)
                                            : shale;
@@ -245,12 +245,12 @@ void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
 const std::vector<Material>
     level_rocks = {shale, crossed, sandstone, {3000, 1500, 2200}},
     tilted_rocks = {dipping_shale, steep, {3100, 1650, 2350, 0.15, 0.05}, {3000, 1500, 2200}},
-    upright_in_space = {shale, crossed, shale}, orthorhombic_in_space = {shale, crossed, cracked},
-    tilted_in_space = {turned_by(shale, 30, 20),
-                       {2900, 1500, 2200},
-                       turned_by(cracked, -40, 60, 15),
-                       turned_by(crossed, 70, -30)},
-    all_in_space = {
+    upright_in_3d = {shale, crossed, shale}, orthorhombic_in_3d = {shale, crossed, cracked},
+    tilted_in_3d = {turned_by(shale, 30, 20),
+                    {2900, 1500, 2200},
+                    turned_by(cracked, -40, 60, 15),
+                    turned_by(crossed, 70, -30)},
+    all_in_3d = {
         turned_by(shale, 30, 20), {2900, 1500, 2200}, cracked, turned_by(cracked, -40, 60, 15), shale};
 
 template <int D>
@@ -275,15 +275,15 @@ const Case cases[] = {
     {"PlaneWave", [](Cut) { return plane_wave_past_a_body<2>(); }, false},
     {"FittedSea", [](Cut cut) { return fitted_in_plane(false, cut); }},
     {"FittedHills", [](Cut cut) { return in_double(fitted_in_plane(true, cut)); }, false},
-    {"UprightInSpace", [](Cut cut) { return blocks<3>(upright_in_space, cut); }, false},
-    {"OrthorhombicInSpace", [](Cut cut) { return blocks<3>(orthorhombic_in_space, cut); }},
-    {"OrthorhombicInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(orthorhombic_in_space, cut)); },
+    {"UprightInSpace", [](Cut cut) { return blocks<3>(upright_in_3d, cut); }, false},
+    {"OrthorhombicInSpace", [](Cut cut) { return blocks<3>(orthorhombic_in_3d, cut); }},
+    {"OrthorhombicInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(orthorhombic_in_3d, cut)); },
      false},
-    {"TiltedInSpace", [](Cut cut) { return blocks<3>(tilted_in_space, cut); }},
-    {"TiltedInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(tilted_in_space, cut)); }, false},
-    {"AttenuatingInSpace", [](Cut cut) { return attenuating(blocks<3>(all_in_space, cut)); }},
-    {"AttenuatingInSpaceInDouble",
-     [](Cut cut) { return in_double(attenuating(blocks<3>(all_in_space, cut))); }, false},
+    {"TiltedInSpace", [](Cut cut) { return blocks<3>(tilted_in_3d, cut); }},
+    {"TiltedInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(tilted_in_3d, cut)); }, false},
+    {"AttenuatingInSpace", [](Cut cut) { return attenuating(blocks<3>(all_in_3d, cut)); }},
+    {"AttenuatingInSpaceInDouble", [](Cut cut) { return in_double(attenuating(blocks<3>(all_in_3d, cut))); },
+     false},
     {"SlipInSpace",
      [](Cut cut) { return in_cluster(cut == Cut::rows ? tilted_shale : tilted_cracked, two_families, cut); }},
     {"SlipSecondInSpace",
@@ -300,8 +300,8 @@ const Case cases[] = {
        return scene;
      }},
     {"PlaneWaveInSpace", [](Cut) { return plane_wave_past_a_body<3>(); }, false},
-    {"FittedSeaInSpace", [](Cut cut) { return fitted_in_space(false, cut); }},
-    {"FittedHillsInSpace", [](Cut cut) { return in_double(fitted_in_space(true, cut)); }, false},
+    {"FittedSeaInSpace", [](Cut cut) { return fitted_in_3d(false, cut); }},
+    {"FittedHillsInSpace", [](Cut cut) { return in_double(fitted_in_3d(true, cut)); }, false},
 };
 
 class AnisotropicScene : public testing::TestWithParam<Case> {};

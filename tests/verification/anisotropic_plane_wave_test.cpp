@@ -107,7 +107,7 @@ double error_in_plane(const Material& over, const Material& under, double angle_
 }
 
 /// The error of one through a rock of 3-D, by the Christoffel equation of the nine or more stiffnesses.
-double error_in_space(const Material& rock, double angle_deg, double azimuth_deg, bool shear) {
+double error_in_3d(const Material& rock, double angle_deg, double azimuth_deg, bool shear) {
   const double x = std::sin(angle_deg * degree), z = std::cos(angle_deg * degree),
                c = std::cos(azimuth_deg * degree), s = std::sin(azimuth_deg * degree);
   const Point<3> direction = {x * c, x * s, z}, usual = {z * c, z * s, -x};
@@ -149,7 +149,7 @@ TEST(AnisotropicPlaneWave, GoesThroughARockUndisturbed) {
   for (const auto& rock : {shale, askew})
     for (const bool shear : {false, true}) {
       if (!long_form() && shear != (rock == shale)) continue;
-      EXPECT_LT(error_in_space(rock, 25, 40, shear), shear ? 0.05 : 0.01) << rock.tilt << shear;
+      EXPECT_LT(error_in_3d(rock, 25, 40, shear), shear ? 0.05 : 0.01) << rock.tilt << shear;
     }
 }
 

@@ -106,8 +106,8 @@ Extruded curvilinear_slice(int along, bool hills, const EdgeLaws<2>& edges, int 
   both.deep.model.medium = fitted_medium<3>(both.deep.model.grid(), layers(along_y), hills);
   const double between = (upper.vp + lower.vp) / 2;
   put_rocks(both.flat.model.medium, in_plane(upper), in_plane(lower), between);
-  const auto in_space = [&](const Material& rock) { return turned_by(rock, rock.tilt, along_y ? 90 : 0); };
-  put_rocks(both.deep.model.medium, in_space(upper), in_space(lower), between);
+  const auto in_3d = [&](const Material& rock) { return turned_by(rock, rock.tilt, along_y ? 90 : 0); };
+  put_rocks(both.deep.model.medium, in_3d(upper), in_3d(lower), between);
   both.flat.numerics.order = both.deep.numerics.order = order;
   // The smaller of both bounds.
   both.flat.numerics.cfl = 0.7;

@@ -426,7 +426,7 @@ BitScenes of_effects() {
 }
 
 /// What is the same for all scenes in space.
-Scene<3> in_space(Medium<3> medium, EdgeLaw sides, const char* mechanism) {
+Scene<3> in_3d(Medium<3> medium, EdgeLaw sides, const char* mechanism) {
   auto scene = solver::scene_of(std::move(medium), edges_all_3d(sides), {87, 47, 112}, mechanism, "ricker:80",
                                 {{112.5, 52.5, 137.5}, {41, 33.4, 51}, {62, 40, 188}},
                                 {Component::vx, Component::vy, Component::syz, Component::p}, 0, 0.001);
@@ -439,7 +439,7 @@ Scene<3> in_space(Medium<3> medium, EdgeLaw sides, const char* mechanism) {
 /// Lumps of rock, softer rock, water and void, with fractures round the source.
 Scene<3> lumps_with(EdgeLaw sides, int order, int time_order, const char* mechanism) {
   const Index<3> shape = long_form() ? Index<3>{70, 24, 64} : Index<3>{26, 16, 64};
-  auto scene = in_space(lumps(shape, 5, 7), sides, mechanism);
+  auto scene = in_3d(lumps(shape, 5, 7), sides, mechanism);
   scene.model.fracture = Field<3, std::uint8_t>(scene.model.grid());
   for (std::int64_t k = 18; k < 36; ++k)
     for (std::int64_t j = 6; j < 15; ++j)
@@ -470,7 +470,7 @@ Scene<3> fitted(EdgeLaw sides) {
 
 /// Some discs that cross, soft and stiff.
 Scene<3> discs(int time_order) {
-  auto scene = in_space(uniform_cube({24, 18, 64}, 5, rock), free, "force:3,1,2");
+  auto scene = in_3d(uniform_cube({24, 18, 64}, 5, rock), free, "force:3,1,2");
   scene.survey.receivers_m = {{34, 41, 142}, {57, 85, 123}};
   const auto add = [&](const FractureTrace<3>& polygon, double z_n, double z_t) {
     SlipSystem<3> system{normal_of_polygon(polygon), 0, 0, 0, false, FrictionLaw::none};
@@ -486,7 +486,7 @@ Scene<3> discs(int time_order) {
 }
 
 Scene<3> pool() {
-  auto scene = in_space(uniform_cube({26, 16, 64}, 5, water), absorbing, "explosion");
+  auto scene = in_3d(uniform_cube({26, 16, 64}, 5, water), absorbing, "explosion");
   fill(scene.model.medium, [](const Index<3>& at) { return at[2] > 30 + at[0] / 4 ? brine : water; });
   scene.survey.receivers_m[0][0] = 102;
   scene.recording.duration_s *= 2;
@@ -495,7 +495,7 @@ Scene<3> pool() {
 
 /// A plane wave in layers that comes along none of the axes.
 Scene<3> plane_wave_with_an_azimuth() {
-  auto scene = in_space(uniform_cube({12, 10, 40}, 5, rock), absorbing, "plane-s:20,60");
+  auto scene = in_3d(uniform_cube({12, 10, 40}, 5, rock), absorbing, "plane-s:20,60");
   fill(scene.model.medium, [](const Index<3>& at) { return at[2] < 12 ? rock : soft; });
   scene.edges[2][0] = absorbing;
   scene.survey.sources[0].position_m = {25, 30, 10};

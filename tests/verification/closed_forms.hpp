@@ -186,7 +186,7 @@ inline std::vector<ClosedForm<2>> closed_forms() {
 }
 
 /// The same in space: an explosion in water, on mirrors that make it the whole space.
-inline std::vector<ClosedForm<3>> closed_forms_in_space() {
+inline std::vector<ClosedForm<3>> closed_forms_in_3d() {
   static constexpr Rock water{1500, 0, 1000};
   static constexpr double interval_s = 0.001, h = 5;
   static const Point<3> receivers[] = {{120, 90, 150}, {40, 30, 190}, {200, 100, 60}, {160, 10, 5}};

@@ -25,7 +25,7 @@ TEST(FaceFriction, KeepsItsPrestressInCellsOfAnotherSize) {
     const auto resized = resampled(model, h, true);
     check(resized);
     int level = 0, upright = 0;
-    for (const auto& face : parted_faces(resized)) {
+    for (const auto& face : split_faces(resized)) {
       const auto& stress = face.law.prestress_pa;
       if (face.axis == 1) ++level;
       if (face.axis == 0) ++upright;

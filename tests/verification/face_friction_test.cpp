@@ -29,7 +29,7 @@ constexpr double mean_of_period = 0.49;
 /// A wave straight onto a face: of shear (pair 1) or of pressure (pair 0).
 struct Case {
   std::size_t pair = 1;
-  PartedFace<2> face;
+  SplitFace<2> face;
   double peak_pa = 1e5;
   Rock below = rock;
   int order = 5;
@@ -62,7 +62,7 @@ double way_m(const Case& of) { return (double(std::int64_t(20 / of.h)) - 0.5) * 
 Waves solved(const Case& of) {
   const auto behind = std::int64_t(face_m / of.h), cells = std::int64_t(depth_m / of.h);
   auto medium = uniform_medium(2, cells, of.h, rock);
-  std::vector<PartedFace<2>> faces;
+  std::vector<SplitFace<2>> faces;
   for (const std::int64_t i : {0, 1}) {
     for (auto k = behind; k < cells; ++k) put(medium, {i, k}, of.below);
     faces.push_back(of.face);
@@ -142,8 +142,8 @@ std::function<double(double)> in_small_steps(State state, const Next& next, doub
   };
 }
 
-PartedFace<2> sliding(double friction, double pressure_pa, double shear_pa = 0, double viscosity_s_m = 0) {
-  PartedFace<2> face;
+SplitFace<2> sliding(double friction, double pressure_pa, double shear_pa = 0, double viscosity_s_m = 0) {
+  SplitFace<2> face;
   face.law.friction_law = FrictionLaw::coulomb;
   face.law.friction.friction = friction;
   face.law.prestress_pa = {-pressure_pa, shear_pa};

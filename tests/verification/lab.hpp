@@ -38,7 +38,7 @@ class Lab {
 
   /// With `parted` faces between cells.
   Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s, int time_order = 2,
-      std::vector<PartedFace<2>> parted = {})
+      std::vector<SplitFace<2>> parted = {})
       : medium_(medium),
         domain_(domain_with(make_domain(medium_, edges, 1, {}, order), std::move(parted))),
         state_(std::make_unique<State<2, Real>>(
@@ -74,9 +74,9 @@ class Lab {
   }
 
  private:
-  static Domain<2> domain_with(Domain<2> domain, std::vector<PartedFace<2>> parted) {
+  static Domain<2> domain_with(Domain<2> domain, std::vector<SplitFace<2>> parted) {
     for (auto& face : parted) face.behind = domain.computed_cell(face.behind);
-    domain.parted = std::move(parted);
+    domain.split = std::move(parted);
     return domain;
   }
   Medium<2> medium_;

@@ -48,7 +48,7 @@ void add(const ClosedForm<D>& closed, Score& score) {
 void add_closed_forms(Score& score, bool quick) {
   for (const auto& closed : closed_forms())
     if (!quick || closed.quick) add(closed, score);
-  for (const auto& closed : closed_forms_in_space())
+  for (const auto& closed : closed_forms_in_3d())
     if (!quick || closed.quick) add(closed, score);
 }
 

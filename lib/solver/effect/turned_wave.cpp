@@ -284,10 +284,10 @@ WaveFields<3> turned(const MotionAlongX& medium, const PlaneFields& fields,
 bool travels_in_anisotropic_rock(const Scene<3>& scene, const Domain<3>& domain, const PlaneWaveWay<3>& way) {
   const auto& medium = scene.model.medium;
   if (way.kind != PlaneWaveKind::layered)
-    return material_of(medium, std::size_t(medium.grid().flat(way.entry))).is_anisotropic_in_space();
+    return material_of(medium, std::size_t(medium.grid().flat(way.entry))).is_anisotropic_in_3d();
   const auto layers = layers_of(scene, domain, way).layers;
   return std::any_of(layers.begin(), layers.end(),
-                     [](const Material& layer) { return layer.is_anisotropic_in_space(); });
+                     [](const Material& layer) { return layer.is_anisotropic_in_3d(); });
 }
 
 namespace {

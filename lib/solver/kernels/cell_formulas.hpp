@@ -96,7 +96,7 @@ template <class Real>
   v += moved * ds;
   s += p_modulus * dv;
 }
-/// What the second S pair and passive stress of such a medium have of their own in space: the shear modulus
+/// What the second S pair and passive stress of such a medium have of their own in 3-D: the shear modulus
 /// and the increment (theory.md (O1)). `strained` is b times the size of the fraction.
 template <class Real>
 [[gnu::always_inline]] inline void second_pair(Real strained, Real z, Real coupling, Real dv, Real& s_modulus,

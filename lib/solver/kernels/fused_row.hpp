@@ -27,7 +27,7 @@ template <class Real>
 /// space each pair of an anisotropic medium has an impedance of its own.
 template <int Order, int Sign, int Shears, bool Coupled, class Real>
 [[gnu::always_inline]] inline void fused_row_in(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
-  constexpr bool Shear = Shears > 0, Shear2 = Shears > 1, InSpace = Shear2 && Coupled;
+  constexpr bool Shear = Shears > 0, Shear2 = Shears > 1, In3D = Shear2 && Coupled;
   const Real size = Sign < 0 ? -scale : scale;
   const std::int64_t stride = rows.stride, m = rows.material_pitch, ups = rows.up_pitch, f = rows.face_pitch;
   // The row that is advanced is one that the reconstruction reads: a field has one pointer for both.
@@ -35,7 +35,7 @@ template <int Order, int Sign, int Shears, bool Coupled, class Real>
   Real* __restrict v = rows.fields.v, * __restrict s = rows.fields.s, * __restrict passive = rows.fields.passive;
   Real* __restrict vt = rows.fields.vt, * __restrict st = rows.fields.st;
   Real* __restrict vt2 = rows.fields.vt2, * __restrict st2 = rows.fields.st2, * __restrict passive2 = rows.fields.passive2;
-  const std::int64_t to_p = InSpace ? rows.zp : m, to_s = InSpace ? rows.zs : 2 * m, to_s2 = rows.zs2;
+  const std::int64_t to_p = In3D ? rows.zp : m, to_s = In3D ? rows.zs : 2 * m, to_s2 = rows.zs2;
   const Real *below = rows.below, *here = rows.here, *done = rows.done, *lo = rows.lo, *hi = rows.hi;
   const Real *coupling = rows.coupling, *coupling2 = rows.coupling2;
   const Real* __restrict up_from = rows.up_from;
@@ -44,7 +44,7 @@ template <int Order, int Sign, int Shears, bool Coupled, class Real>
   for (std::int64_t i = 0; i < n; ++i) {
     const Real b = here[i], p_hi = here[i + to_p], s_hi = Shear ? here[i + to_s] : Real(0);
     const Real p_lo = below[i + to_p], s_lo = Shear ? below[i + to_s] : Real(0);
-    const Real s2_hi = InSpace ? here[i + to_s2] : s_hi, s2_lo = InSpace ? below[i + to_s2] : s_lo;
+    const Real s2_hi = In3D ? here[i + to_s2] : s_hi, s2_lo = In3D ? below[i + to_s2] : s_lo;
     Real up_p, down_p, up_s, down_s, up_s2, down_s2;
     reconstruct_cell<Order>(v + i, s + i, stride, Sign * p_hi, size * (p_hi * b), up_p, down_p);
     if constexpr (Shear)
@@ -59,7 +59,7 @@ template <int Order, int Sign, int Shears, bool Coupled, class Real>
            faces[i + 3 * f], v_s, s_s);
     if constexpr (Shear2)
       meet(up_from[i + 2 * ups], up_s2, down_s2, s2_lo, s2_hi,
-           InSpace ? 1 / (s2_lo + s2_hi + Real(none)) : share_s, up_to[i + 2 * ups], faces[i + 4 * f],
+           In3D ? 1 / (s2_lo + s2_hi + Real(none)) : share_s, up_to[i + 2 * ups], faces[i + 4 * f],
            faces[i + 5 * f], v_s2, s_s2);
     // At order 1, just one row behind, these are the faces behind the cell.
     const Real v_hi = behind == 1 ? v_p : hi[i], n_hi = behind == 1 ? s_p : hi[i + f];
@@ -79,7 +79,7 @@ template <int Order, int Sign, int Shears, bool Coupled, class Real>
     }
     if constexpr (Shear2) {
       const Real w_hi = behind == 1 ? v_s2 : hi[i + 4 * f], t_hi = behind == 1 ? s_s2 : hi[i + 5 * f];
-      if constexpr (InSpace)
+      if constexpr (In3D)
         second_pair(size * done[i], done[i + to_s2], coupling2[i], v_hi - lo[i], s_modulus, along);
       passive2[at] += along;
       update_s(w_hi - lo[i + 4 * f], t_hi - lo[i + 5 * f], moved, s_modulus, vt2[at], st2[at]);

@@ -96,9 +96,9 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
   const Real b0 = b[0], zp0 = zp[0], zs0 = zs[0];
   const Real* __restrict coupling = material.coupling;
   const Real coupling0 = Coupled ? coupling[0] : Real(0);
-  constexpr bool InSpace = Coupled && D == 3;
+  constexpr bool In3D = Coupled && D == 3;
   const Real* __restrict zs2 = material.zs2, * __restrict coupling2 = material.coupling2;
-  const Real zs20 = InSpace ? zs2[0] : Real(0), coupling20 = InSpace ? coupling2[0] : Real(0);
+  const Real zs20 = In3D ? zs2[0] : Real(0), coupling20 = In3D ? coupling2[0] : Real(0);
   Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
   Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
 #pragma omp simd
@@ -113,7 +113,7 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
       update_p<Shear>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
     if constexpr (Shear) passive[i] += along;
     if constexpr (Shear) update_s(w_hi[i] - w_lo[i], t_hi[i] - t_lo[i], moved, s_modulus, vt[i], st[i]);
-    if constexpr (InSpace)
+    if constexpr (In3D)
       second_pair(size * b_i, Uniform ? zs20 : zs2[i], Uniform ? coupling20 : coupling2[i], v_hi[i] - v_lo[i],
                   s_modulus, along);
     if constexpr (Shear && D == 3) {
@@ -136,10 +136,10 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
   const Real over_zp = Real(0.5) / zp, over_zs = zs > 0 ? Real(0.5) / zs : Real(0);
   // A fluid carries no shear.
   const Real moved_s = zs > 0 ? moved : Real(0);
-  constexpr bool InSpace = Coupled && D == 3;
-  const Real zs2 = InSpace ? material.zs2[0] : zs, s_modulus2 = InSpace ? strained * zs2 * zs2 : s_modulus,
-             over_zs2 = InSpace && zs2 > 0 ? Real(0.5) / zs2 : over_zs,
-             along2 = InSpace ? strained * material.coupling2[0] : along;
+  constexpr bool In3D = Coupled && D == 3;
+  const Real zs2 = In3D ? material.zs2[0] : zs, s_modulus2 = In3D ? strained * zs2 * zs2 : s_modulus,
+             over_zs2 = In3D && zs2 > 0 ? Real(0.5) / zs2 : over_zs,
+             along2 = In3D ? strained * material.coupling2[0] : along;
   const Real* __restrict up_lo = below.up(0), * __restrict up = here.up(0), * __restrict down = here.down(0), * __restrict down_hi = above.down(0);
   const Real* __restrict sup_lo = below.up(1), * __restrict sup = here.up(1), * __restrict sdown = here.down(1), * __restrict sdown_hi = above.down(1);
   const Real* __restrict tup_lo = below.up(2), * __restrict tup = here.up(2), * __restrict tdown = here.down(2), * __restrict tdown_hi = above.down(2);

@@ -124,7 +124,7 @@ template <int Mechanisms, class Real>
 /// In 3-D in anisotropic rock: all of the stress relaxes as the shear modulus does, and its bulk part by what
 /// the shares of the bulk differ from those of shear. The memory is of the stress itself.
 template <Relaxing What, int Mechanisms, class Real>
-[[gnu::noinline]] void relax_in_space(std::int64_t n, const RelaxationRows<Real>& rows) {
+[[gnu::noinline]] void relax_in_3d(std::int64_t n, const RelaxationRows<Real>& rows) {
   constexpr std::int64_t block = relaxation_block;
   constexpr int parts = relaxing_parts(3, What), values = axis_values(3, What), of_tensor = values / 2;
   const std::int64_t pitch = rows.pitch;
@@ -175,7 +175,7 @@ template <Relaxing What, int Mechanisms, class Real>
 template <int D, Relaxing What, int Mechanisms, class Real>
 constexpr RelaxationKernel<Real> loop() {
   if constexpr (D == 3 && (What == Relaxing::upright || What == Relaxing::turned))
-    return relax_in_space<What, Mechanisms, Real>;
+    return relax_in_3d<What, Mechanisms, Real>;
   else if constexpr (What == Relaxing::turned)
     return relax_turned<Mechanisms, Real>;
   else

@@ -298,11 +298,11 @@ UniformRun<Real> run_of(const State<D, Real>& state, const Index<D>& line, std::
   return run;
 }
 
-/// On both sides of parted faces, ascending: their faces are not those of one material.
+/// On both sides of split faces, ascending: their faces are not those of one material.
 template <int D>
-std::vector<std::int64_t> cells_beside_parted(const Domain<D>& domain) {
+std::vector<std::int64_t> cells_beside_split(const Domain<D>& domain) {
   std::vector<std::int64_t> cells;
-  for (const auto& face : domain.parted) {
+  for (const auto& face : domain.split) {
     auto before = face.behind;
     if (before[std::size_t(face.axis)] > 0) --before[std::size_t(face.axis)];
     for (const auto& at : {before, face.behind}) cells.push_back(domain.grid.flat(at));
@@ -321,8 +321,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   };
   const auto& anisotropic = domain.anisotropic_cells();
   std::vector<char> own_loops(std::size_t(nx), 1);
-  const auto parted = cells_beside_parted(domain);
-  auto next_parted = parted.begin();
+  const auto split = cells_beside_split(domain);
+  auto next_split = split.begin();
   auto next = anisotropic.begin();
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
@@ -331,8 +331,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     std::fill(own_loops.begin(), own_loops.end(), 1);
     for (auto of = next; of != anisotropic.end() && of->cell < (line + 1) * nx; ++of)
       own_loops[std::size_t(of->cell - line * nx)] = 0;
-    for (; next_parted != parted.end() && *next_parted < (line + 1) * nx; ++next_parted)
-      own_loops[std::size_t(*next_parted - line * nx)] = 0;
+    for (; next_split != split.end() && *next_split < (line + 1) * nx; ++next_split)
+      own_loops[std::size_t(*next_split - line * nx)] = 0;
     const auto same = [&](std::int64_t i, std::int64_t j) {
       return own_loops[std::size_t(i)] && own_loops[std::size_t(j)] && material.b[i] == material.b[j] &&
              material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&

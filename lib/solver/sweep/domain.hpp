@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "rock/elasticity.hpp"
 #include "rock/tilted_mean.hpp"
 #include "scene/edges.hpp"
@@ -54,10 +54,10 @@ class Domain {
   EdgeLaws<D> edges;        // absorbing, without a zone, where other processes continue
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
-  IndexRange own;                     // rows of the computed grid that this process owns
-  std::vector<PartedFace<D>> parted;  // of the computed grid, by axis and cell
-  std::vector<std::int64_t> soft;     // cells that carry next to no stress (soft_cells())
-  int order = 1;                      // of the reconstruction, at most
+  IndexRange own;                   // rows of the computed grid that this process owns
+  std::vector<SplitFace<D>> split;  // of the computed grid, by axis and cell
+  std::vector<std::int64_t> soft;   // cells that carry next to no stress (soft_cells())
+  int order = 1;                    // of the reconstruction, at most
   /// These two are of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that
   /// stencils reach from it is not level, and the height of level ones in cells. They are empty where no row
   /// is curvilinear, or all heights are one cell.

@@ -30,10 +30,10 @@ template <int D, class Real>
 SplitFaces<D, Real>::SplitFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s,
                                 double unit)
     : state_(state), spacing_m_(domain.grid.spacing_m), unit_(unit), dt_s_(dt_s), own_(domain.own) {
-  for (auto& of_pair : images_) of_pair.resize(2 * domain.parted.size());
-  for (const auto& parted : domain.parted) {
+  for (auto& of_pair : images_) of_pair.resize(2 * domain.split.size());
+  for (const auto& split : domain.split) {
     Face face{};
-    place(face, domain, parted, dt_s);
+    place(face, domain, split, dt_s);
     faces_.push_back(face);
   }
   for (auto& face : faces_) find_along(face);
@@ -49,29 +49,28 @@ SplitFaces<D, Real>::SplitFaces(const State<D, Real>& state, const Domain<D>& do
 }
 
 template <int D, class Real>
-void SplitFaces<D, Real>::place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted,
-                                double dt_s) {
+void SplitFaces<D, Real>::place(Face& face, const Domain<D>& domain, const SplitFace<D>& split, double dt_s) {
   const auto& layout = state_.layout;
-  const auto before = parted.before();
-  face.axis = parted.axis;
-  face.inside = parted.behind[std::size_t(parted.axis)] > 0;
-  face.line = layout.line_number(parted.behind), face.x = parted.behind[0];
-  face.cells = {layout.cell(before), layout.cell(parted.behind)};
-  face.compliance.fill(parted.tangential_m_per_pa);
-  face.compliance[0] = parted.normal_m_per_pa;
-  face.law = parted.law;
+  const auto before = split.before();
+  face.axis = split.axis;
+  face.inside = split.behind[std::size_t(split.axis)] > 0;
+  face.line = layout.line_number(split.behind), face.x = split.behind[0];
+  face.cells = {layout.cell(before), layout.cell(split.behind)};
+  face.compliance.fill(split.tangential_m_per_pa);
+  face.compliance[0] = split.normal_m_per_pa;
+  face.law = split.law;
   const auto b_of = [&](Index<D> at) {
     const auto x = at[0];
     at[0] = 0;
     return double(state_.material_row(at, row_b)[x]);
   };
   for (std::size_t pair = 0; pair < D; ++pair) {
-    const auto& impedance = domain.impedance_of_pair(parted.axis, int(pair));
-    const double lo = impedance(before), hi = impedance(parted.behind);
+    const auto& impedance = domain.impedance_of_pair(split.axis, int(pair));
+    const double lo = impedance(before), hi = impedance(split.behind);
     const double relaxation = dt_s / (face.compliance[pair] * lo * hi / (lo + hi));
     face.relaxation[pair] = Real(std::min(relaxation, double(std::numeric_limits<float>::max())));
     // Mean time in steps that the wave takes through half a cell, of both sides.
-    const double half_cell = (1 / (lo * b_of(before)) + 1 / (hi * b_of(parted.behind))) / 4;
+    const double half_cell = (1 / (lo * b_of(before)) + 1 / (hi * b_of(split.behind))) / 4;
     face.impedance[pair] = lo * hi / (lo + hi), face.half_cell[pair] = Real(half_cell);
     for (const std::size_t side : {0, 1}) {
       auto& image = images_[pair][2 * faces_.size() + side];

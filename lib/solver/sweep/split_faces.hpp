@@ -98,7 +98,7 @@ class SplitFaces {
   Swept solve(std::size_t n, const std::array<Real, D>& welded, Real size) const;
   void advance(std::size_t n, const Swept& swept);
   bool owns(std::size_t n) const;
-  void place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted, double dt_s);
+  void place(Face& face, const Domain<D>& domain, const SplitFace<D>& split, double dt_s);
   void find_along(Face& face) const;
   bool crossed(const Face& face) const;
   void put_images(std::size_t n);

@@ -72,8 +72,8 @@ template <int D>
 SplitLine<D> split_along(const Domain<D>& domain, int axis, int pair, int reach) {
   SplitLine<D> line;
   std::vector<std::pair<std::int64_t, std::int32_t>> faces;  // cell behind, place in the domain's list
-  for (std::size_t n = 0; n < domain.parted.size(); ++n) {
-    const auto& face = domain.parted[n];
+  for (std::size_t n = 0; n < domain.split.size(); ++n) {
+    const auto& face = domain.split[n];
     if (face.axis != axis || !face.parts(pair)) continue;
     faces.emplace_back(domain.grid.flat(face.behind), std::int32_t(n));
     add_cells_along(domain.grid, face.behind, axis, -reach, reach - 1, line.near);
@@ -101,7 +101,7 @@ ReachBounds reach_bounds(const Domain<D>& domain, int axis, int reach) {
   for (const auto cell : domain.soft)
     for (int offset = 1 - reach; offset < reach; ++offset)
       bound(grid.index(cell), axis, offset, reach_up_to(std::abs(offset), most_reach_in_soft_cells, reach));
-  for (const auto& face : domain.parted) {
+  for (const auto& face : domain.split) {
     if (face.axis == axis || !face.springs()) continue;
     for (int n = 0; most_reach_along_springs + n < reach; ++n)
       for (const int offset : {-1 - n, n})
@@ -214,7 +214,7 @@ void Sweeps<D, Real>::use(SweepFilter<D, Real>* filter) {
 
 template <int D, class Real>
 void Sweeps<D, Real>::split_faces(const Domain<D>& domain, double dt_s, double unit) {
-  if (!domain.parted.empty()) split_ = std::make_unique<SplitFaces<D, Real>>(state_, domain, dt_s, unit);
+  if (!domain.split.empty()) split_ = std::make_unique<SplitFaces<D, Real>>(state_, domain, dt_s, unit);
 }
 
 template <int D, class Real>

@@ -15,7 +15,7 @@ namespace slipwave {
 /// A face where a single fracture parts the rock, before the cell `behind` along an axis, its compliances,
 /// m/Pa, infinite where it is open, and its friction.
 template <int D>
-struct PartedFace {
+struct SplitFace {
   Index<D> behind{};
   int axis = 0;
   double normal_m_per_pa = 0, tangential_m_per_pa = 0;
@@ -69,13 +69,13 @@ const FractureSet<D>* first_on_faces(const std::vector<FractureSet<D>>& sets) {
 /// springs, so that the fracture ends where its trace does (S37). In 3-D there are none. Throws an Error
 /// where one with friction shares a face with another.
 template <int D>
-std::vector<PartedFace<D>> parted_faces(const Model<D>& model, std::int64_t* left = nullptr);
+std::vector<SplitFace<D>> split_faces(const Model<D>& model, std::int64_t* left = nullptr);
 /// Returns the faces that one set splits.
 template <int D>
-std::vector<PartedFace<D>> parted_faces(const Model<D>& model, const FractureSet<D>& set);
+std::vector<SplitFace<D>> split_faces(const Model<D>& model, const FractureSet<D>& set);
 template <>
-std::vector<PartedFace<2>> parted_faces(const Model<2>& model, const FractureSet<2>& set);
+std::vector<SplitFace<2>> split_faces(const Model<2>& model, const FractureSet<2>& set);
 template <>
-std::vector<PartedFace<3>> parted_faces(const Model<3>& model, const FractureSet<3>& set);
+std::vector<SplitFace<3>> split_faces(const Model<3>& model, const FractureSet<3>& set);
 
 }  // namespace slipwave

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 #include "slip_cases.hpp"
 
 namespace slipwave {
@@ -88,10 +88,10 @@ void expect_bounded(const typename Lab<Real>::Setup& given) {
   }
 }
 
-class PartedFaces : public ::testing::TestWithParam<std::string> {};
+class SplitFaces : public ::testing::TestWithParam<std::string> {};
 
 // Proves (S35).
-TEST_P(PartedFaces, KeepEnergyFallingOpenOrNot) {
+TEST_P(SplitFaces, KeepEnergyFallingOpenOrNot) {
   const ThreadLimit one_thread(1);
   constexpr double open = std::numeric_limits<double>::infinity(), soft = 1e-9 * 5;
   unsigned seed = 1;
@@ -114,7 +114,7 @@ TEST_P(PartedFaces, KeepEnergyFallingOpenOrNot) {
 }
 
 // Proves (S43).
-TEST_P(PartedFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
+TEST_P(SplitFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
   const ThreadLimit one_thread(1);
   const Plane planes[] = {{0, 0, 0, false, 0},
                           {0.5, 0, 0, false, 0},
@@ -156,7 +156,7 @@ TEST_P(PartedFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
 }
 
 // Proves (S43).
-TEST_P(PartedFaces, OnTheVergeOfSlipNeverAddEnergyToAllStressBetweenWalls) {
+TEST_P(SplitFaces, OnTheVergeOfSlipNeverAddEnergyToAllStressBetweenWalls) {
   const ThreadLimit one_thread(1);
   unsigned seed = 1;
   for (const int order : orders_tried())
@@ -204,7 +204,7 @@ TEST(SpringsOnFaces, NearAnInterfaceLoseEnergyAtHighOrders) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Media, PartedFaces,
+INSTANTIATE_TEST_SUITE_P(Media, SplitFaces,
                          ::testing::Values("SofterRockInRock", "SoilOverRock", "RandomMixture"),
                          [](const auto& info) { return info.param; });
 

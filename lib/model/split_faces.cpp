@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/parted_faces.hpp"
+#include "model/split_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ double modulus_of_cracks(const Medium<2>& medium, std::size_t cell) {
 }
 
 void add_faces(const Model<2>& model, const FacesOfTrace& of, const SlipSystem<2>& system,
-               std::vector<PartedFace<2>>& faces, std::int64_t& left) {
+               std::vector<SplitFace<2>>& faces, std::int64_t& left) {
   const auto& compliance = system.compliance;
   const auto& grid = model.grid();
   const auto across = std::size_t(of.axis), along = 1 - across;
@@ -63,7 +63,7 @@ void add_faces(const Model<2>& model, const FacesOfTrace& of, const SlipSystem<2
   const auto first = std::max(std::int64_t(std::floor(of.first)), grid.first[along]);
   const auto last = std::min(std::int64_t(std::ceil(of.last)), grid.first[along] + grid.shape[along]);
   for (auto n = first; n < last; ++n) {
-    PartedFace<2> one;
+    SplitFace<2> one;
     one.axis = of.axis;
     one.behind[across] = face, one.behind[along] = n - grid.first[along];
     // The first row of a part of the model: its face belongs to the part above, too.
@@ -89,7 +89,7 @@ void add_faces(const Model<2>& model, const FacesOfTrace& of, const SlipSystem<2
   }
 }
 
-void add_faces(const Model<2>& model, const FractureSet<2>& set, std::vector<PartedFace<2>>& faces,
+void add_faces(const Model<2>& model, const FractureSet<2>& set, std::vector<SplitFace<2>>& faces,
                std::int64_t& left) {
   if (!parts_faces(set)) return;
   for (const auto& trace : set.traces)
@@ -98,11 +98,11 @@ void add_faces(const Model<2>& model, const FractureSet<2>& set, std::vector<Par
 
 /// Joins fractures that share a face: their compliances add up; strengths do not. Throws an Error where one
 /// of them has friction.
-void join(const Grid<2>& grid, std::vector<PartedFace<2>>& faces) {
-  const auto place = [&](const PartedFace<2>& face) { return std::pair(face.axis, grid.flat(face.behind)); };
+void join(const Grid<2>& grid, std::vector<SplitFace<2>>& faces) {
+  const auto place = [&](const SplitFace<2>& face) { return std::pair(face.axis, grid.flat(face.behind)); };
   std::stable_sort(faces.begin(), faces.end(),
                    [&](const auto& one, const auto& other) { return place(one) < place(other); });
-  std::vector<PartedFace<2>> joined;
+  std::vector<SplitFace<2>> joined;
   for (const auto& face : faces) {
     if (joined.empty() || place(joined.back()) != place(face)) {
       joined.push_back(face);
@@ -158,8 +158,8 @@ FacesOfTrace check_on_faces(const Grid<2>& grid, const FractureTrace<2>& trace) 
 }
 
 template <>
-std::vector<PartedFace<2>> parted_faces(const Model<2>& model, std::int64_t* left) {
-  std::vector<PartedFace<2>> faces;
+std::vector<SplitFace<2>> split_faces(const Model<2>& model, std::int64_t* left) {
+  std::vector<SplitFace<2>> faces;
   std::int64_t count = 0;
   for (const auto& set : model.fracture_sets) add_faces(model, set, faces, count);
   join(model.grid(), faces);
@@ -167,19 +167,19 @@ std::vector<PartedFace<2>> parted_faces(const Model<2>& model, std::int64_t* lef
   return faces;
 }
 template <>
-std::vector<PartedFace<3>> parted_faces(const Model<3>&, std::int64_t* left) {
+std::vector<SplitFace<3>> split_faces(const Model<3>&, std::int64_t* left) {
   if (left) *left = 0;
   return {};
 }
 template <>
-std::vector<PartedFace<2>> parted_faces(const Model<2>& model, const FractureSet<2>& set) {
-  std::vector<PartedFace<2>> faces;
+std::vector<SplitFace<2>> split_faces(const Model<2>& model, const FractureSet<2>& set) {
+  std::vector<SplitFace<2>> faces;
   std::int64_t left = 0;
   add_faces(model, set, faces, left);
   return faces;
 }
 template <>
-std::vector<PartedFace<3>> parted_faces(const Model<3>&, const FractureSet<3>&) {
+std::vector<SplitFace<3>> split_faces(const Model<3>&, const FractureSet<3>&) {
   return {};
 }
 
