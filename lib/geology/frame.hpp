@@ -46,8 +46,10 @@ struct Frame {
   bool in_ellipse(const Point<D>& at) const {
     auto local = seen(at);
     for (std::size_t n = 0; n < D; ++n) local[n] /= size_m[n];
-    if constexpr (D == 2) return std::hypot(local[0], local[1]) <= 1;
-    if constexpr (D == 3) return std::hypot(local[0], local[1], local[2]) <= 1;
+    if constexpr (D == 2)
+      return std::hypot(local[0], local[1]) <= 1;
+    else
+      return std::hypot(local[0], local[1], local[2]) <= 1;
   }
   /// From where to where, along an axis of space, the line through a point is in the slab: low > high where
   /// it is not.

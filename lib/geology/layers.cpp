@@ -259,8 +259,9 @@ double dip_between(const LineOfTops& over, std::size_t column, const std::vector
 
 template <int D>
 Index<D> index_of(std::int64_t column, std::int64_t line, std::int64_t row) {
-  if constexpr (D == 2) return {column, row};
-  if constexpr (D == 3) return {column, line, row};
+  Index<D> at;
+  at[D - 2] = line, at[0] = column, at[D - 1] = row;
+  return at;
 }
 
 enum class Kind { nothing, fluid, solid };

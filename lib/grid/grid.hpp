@@ -20,8 +20,10 @@ using Index = std::array<std::int64_t, std::size_t(D)>;
 /// Names of the axes in storage order, fastest first: "x","z" or "x","y","z".
 template <int D>
 constexpr std::array<char, D> axis_names() {
-  if constexpr (D == 2) return {'x', 'z'};
-  if constexpr (D == 3) return {'x', 'y', 'z'};
+  if constexpr (D == 2)
+    return {'x', 'z'};
+  else
+    return {'x', 'y', 'z'};
 }
 
 /// A plain grid of cubic cells. Cell (i, .., k) has its centre at origin + (i + 1/2) h; the last axis is

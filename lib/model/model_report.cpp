@@ -118,8 +118,10 @@ Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
   if (!set.traces.empty()) {
     double size = 0;
     for (const auto& trace : set.traces) {
-      if constexpr (D == 2) size += length_of(trace);
-      if constexpr (D == 3) size += area_of(trace);
+      if constexpr (D == 2)
+        size += length_of(trace);
+      else
+        size += area_of(trace);
     }
     of_set.count("single fractures", std::int64_t(set.traces.size()));
     of_set.number(D == 2 ? "length of all" : "area of all", size, D == 2 ? "m" : "m2");

@@ -11,8 +11,10 @@ namespace {
 
 template <int D>
 std::array<double, 3> in_3d(const Point<D>& point) {
-  if constexpr (D == 2) return {point[0], 0, point[1]};
-  if constexpr (D == 3) return point;
+  if constexpr (D == 2)
+    return {point[0], 0, point[1]};
+  else
+    return point;
 }
 
 /// Depths of the fluid above the first rock below these points of the model, m; 0 where the column begins

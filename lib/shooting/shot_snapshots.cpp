@@ -9,8 +9,10 @@ namespace {
 
 template <int D>
 std::array<Field<D>, std::size_t(D)> velocity_of(const FieldReader<D>& field) {
-  if constexpr (D == 2) return {field(Component::vx), field(Component::vz)};
-  if constexpr (D == 3) return {field(Component::vx), field(Component::vy), field(Component::vz)};
+  if constexpr (D == 2)
+    return {field(Component::vx), field(Component::vz)};
+  else
+    return {field(Component::vx), field(Component::vy), field(Component::vz)};
 }
 
 template <int D>

@@ -8,6 +8,12 @@
 namespace slipwave::solver {
 namespace {
 
+/// Lines along x of a row of cells.
+template <std::size_t D>
+std::int64_t lines_in(const std::array<std::int64_t, D>& shape) {
+  return D == 3 ? shape[D - 2] : 1;
+}
+
 /// The field row that a state of a face is of, in the order of InterfaceStates.
 template <int D>
 int field_of_state(std::int64_t state) {
@@ -94,7 +100,7 @@ void BandFace<D, Real>::fill(const Side& from, const std::vector<Row>& sum, cons
     const auto& cells = shape(side);
     Index<D> at{};
     at[D - 1] = of;
-    for (std::int64_t line = 0; line < (D == 3 ? cells[1] : 1); ++line) {
+    for (std::int64_t line = 0; line < lines_in(cells); ++line) {
       if (D == 3) at[1] = line;
       act(at, line * cells[0], cells[0]);
     }
@@ -102,7 +108,7 @@ void BandFace<D, Real>::fill(const Side& from, const std::vector<Row>& sum, cons
   // Sweeps along the last axis read no other fields of rows beyond their own.
   for (std::int64_t state = 0; state < (from.state->fluid ? 2 : 2 * D); ++state) {
     const int field = field_of_state<D>(state);
-    values_.assign(std::size_t(shape(from)[0] * (D == 3 ? shape(from)[1] : 1)), Real(0));
+    values_.assign(std::size_t(shape(from)[0] * lines_in(shape(from))), Real(0));
     for (const auto& [of, weight] : sum)
       each_line(from, of, [&, weight = weight](const Index<D>& at, std::int64_t first, std::int64_t nx) {
         const Real* const values = from.state->field_row(at, field);
@@ -158,12 +164,12 @@ void BandFace<D, Real>::give_states() {
   const auto &shape_from = shape(narrow()), &shape_to = shape(wide());
   for (std::int64_t state = 0; state < std::min(from.rows, to.rows); ++state) {
     values_.clear();
-    for (std::int64_t line = 0; line < (D == 3 ? shape_from[1] : 1); ++line) {
+    for (std::int64_t line = 0; line < lines_in(shape_from); ++line) {
       const Real* const first = from.of_line(line) + state * from.pitch;
       values_.insert(values_.end(), first, first + shape_from[0]);
     }
     interpolate(false, field_of_state<D>(state), values_);
-    for (std::int64_t line = 0; line < (D == 3 ? shape_to[1] : 1); ++line)
+    for (std::int64_t line = 0; line < lines_in(shape_to); ++line)
       std::copy_n(values_.begin() + line * shape_to[0], shape_to[0], to.of_line(line) + state * to.pitch);
   }
 }

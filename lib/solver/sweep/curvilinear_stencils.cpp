@@ -68,10 +68,9 @@ struct ExtendedColumn {
   template <class Side>
   void correct(const Side& side, const Ghost& ghost, At& at) const {
     const auto of = [&](auto&& component) {
-      Vector vector;
-      vector.z = component(0)[side.slot], vector.x = component(1)[side.slot];
-      if constexpr (D == 3) vector.y = component(2)[side.slot];
-      return vector;
+      std::array<Real, std::size_t(D)> all;
+      for (int c = 0; c < D; ++c) all[std::size_t(c)] = component(c)[side.slot];
+      return row_vector<D>(all);
     };
     auto v = of([&](int c) { return corrections.velocity(c); }),
          t = of([&](int c) { return corrections.traction(c); });
@@ -203,11 +202,8 @@ CurvilinearStencils<D, Real>::CurvilinearStencils(const Domain<D>& domain, int r
     auto before = behind, line = behind;
     --before[D - 1], line[0] = 0;
     const auto of = metric.across(line, behind[0]);
-    const auto normal = face_normal<D>(of.half_n, of.pitch);
-    RowVector<D, double> exact;
-    exact.z = 1, exact.x = double(normal.x);
-    if constexpr (D == 3) exact.y = double(normal.y);
-    const auto share = share_at(domain, before, behind, exact);
+    const auto share =
+        share_at(domain, before, behind, in_numbers<double>(face_normal<D>(of.half_n, of.pitch)));
     auto& weld = welds_.emplace_back();
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) weld.share[i][k] = Real(share[i][k]);

@@ -51,6 +51,14 @@ template <int D, class Real>
   else
     return {of[0], of[1], of[2]};
 }
+/// The same vector in numbers of another type.
+template <class To, int D, class From>
+RowVector<D, To> in_numbers(const RowVector<D, From>& of) {
+  const auto from = components<D>(of);
+  std::array<To, std::size_t(D)> to;
+  for (std::size_t i = 0; i < D; ++i) to[i] = To(from[i]);
+  return row_vector<D>(to);
+}
 /// N of a face or cell as a vector of the axes of the grid.
 template <int D, class Real>
 Point<D> normal_in_grid(const RowVector<D, Real>& normal) {

@@ -8,6 +8,7 @@
 #include "base/instantiate.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/motion_along.hpp"
+#include "solver/sweep/row_waves.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -200,13 +201,8 @@ std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>&
 /// N of the surface, whose z is 1.
 template <int D, class Real>
 RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, int side) {
-  RowVector<D, Real> normal{};
-  normal.z = 1;
-  if (!domain.curvilinear(at[D - 1])) return normal;
-  const auto found = end_of_rows(domain, at, side).first;
-  normal.x = Real(found.x);
-  if constexpr (D == 3) normal.y = Real(found.y);
-  return normal;
+  if (!domain.curvilinear(at[D - 1])) return {1};
+  return in_numbers<Real>(end_of_rows(domain, at, side).first);
 }
 
 /// Whether the extension beyond the surface is corrected there.
@@ -297,14 +293,12 @@ void SurfaceTractions<D, Real>::update(const Real* all_fields, const Real* mater
     };
     const auto number = std::size_t(cell->number);
     const Real b = material[cell->b], normal = sum(0, 0);
-    RowVector<D, Real> bend{};
-    bend.z = sum(0, 2), bend.x = sum(1, 2);
-    if constexpr (D == 3) bend.y = sum(2, 2);
+    std::array<Real, std::size_t(D)> bend;
+    for (std::size_t pair = 0; pair < D; ++pair) bend[pair] = sum(pair, 2);
     // Only the velocity along the surface.
-    bend = scaled(cell->direction, Real(0), b * cell->bend, bend);
-    bends_[0][number] = bend.z, bends_[1][number] = bend.x;
-    if constexpr (D == 3) bends_[2][number] = bend.y;
+    bend = components<D>(scaled(cell->direction, Real(0), b * cell->bend, row_vector<D>(bend)));
     for (std::size_t pair = 0; pair < D; ++pair) {
+      bends_[pair][number] = bend[pair];
       Real traction = cell->normal[pair] * normal;
       if (pair > 0) traction += cell->tangential * (sum(pair, 0) - b * cell->lambda * sum(pair, 1));
       tractions_[pair][number] = b * b * traction;

@@ -445,8 +445,10 @@ template <int D, class Real>
 SweptRows<Real> Sweeps<D, Real>::swept_rows(int axis, Real* fields, std::int64_t pitch) const {
   const auto at = [&](int n) { return fields + changed_[axis][n] * pitch; };
   if (!shear_) return {at(0), at(1), at(1), at(0), at(1)};
-  if constexpr (D == 2) return {at(0), at(1), at(2), at(3), at(4)};
-  if constexpr (D == 3) return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
+  if constexpr (D == 2)
+    return {at(0), at(1), at(2), at(3), at(4)};
+  else
+    return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
 }
 
 template <int D, class Real>
