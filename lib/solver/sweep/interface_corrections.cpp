@@ -166,7 +166,7 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
     in_grid[std::size_t(axis)] = 2 * double(of.half_n[axis * of.pitch]);
   }
   const auto n = in_pairs<D>(in_grid);
-  const double square = dot(n, n);
+  const double square = dot_product(n, n);
   Square sum{};
   std::array<std::array<Square, axes>, 2> load{}, bend{};
   bool beside_void = false;

@@ -51,7 +51,7 @@ template <int D, class Real>
   else
     return {of[0], of[1], of[2]};
 }
-/// The same vector in numbers of another type.
+/// Returns a vector in numbers of another type.
 template <class To, int D, class From>
 RowVector<D, To> in_numbers(const RowVector<D, From>& of) {
   const auto from = components<D>(of);

@@ -201,7 +201,7 @@ std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>&
 /// N of the surface, whose z is 1.
 template <int D, class Real>
 RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, int side) {
-  if (!domain.curvilinear(at[D - 1])) return {1};
+  if (!domain.curvilinear(at[D - 1])) return in_numbers<Real>(row_vector<D>(unit_vector<std::size_t(D)>(0)));
   return in_numbers<Real>(end_of_rows(domain, at, side).first);
 }
 
