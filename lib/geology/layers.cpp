@@ -345,6 +345,21 @@ double depth_of_kind(const std::vector<Layer>& layers, std::size_t i, double x_m
   return depth;
 }
 
+/// Whether a layer is made of the same as the one above it and begins nowhere above that, so that nothing
+/// changes at its top.
+template <int D>
+bool goes_on(const std::vector<Layer>& layers, std::size_t i, const std::vector<Point<D>>& columns) {
+  if (i == 0) return false;
+  const Layer &layer = layers[i], &above = layers[i - 1];
+  const auto plain = [](const Layer& of) { return of.profile.empty() && of.gradient == Material{}; };
+  if (!plain(layer) || !plain(above) || layer.others != above.others || !(layer.material == above.material))
+    return false;
+  return std::all_of(columns.begin(), columns.end(), [&](const Point<D>& at) {
+    const double y = D == 3 ? at[1] : 0;
+    return layer.top.at(at[0], y) >= above.top.at(at[0], y);
+  });
+}
+
 /// The top of a layer as a horizon, without depths. The floor is that of the sea: all above it is fluid.
 FitHorizon horizon_of(const std::vector<Layer>& layers, std::size_t i) {
   const Kind above = i ? kind_of(layers[i - 1]) : Kind::nothing, below = kind_of(layers[i]);
@@ -478,6 +493,7 @@ Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, cons
   std::vector<FitHorizon> horizons;
   std::vector<std::size_t> layer_of;
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    if (goes_on<D>(layers, i, columns)) continue;
     auto horizon = horizon_of(layers, i);
     for (const auto& at : columns)
       horizon.depths_m.push_back(depth_of_kind(layers, i, at[0], D == 3 ? at[1] : 0));

@@ -82,7 +82,7 @@ template <int D>
 void check_reach(const Grid<D>& grid, const Horizon& top);
 
 /// Lets rows of a regular grid follow tops of layers (fit_grid()); `rows` then has one entry a layer. A top
-/// above or below all of the model is no horizon. Throws as layered_medium().
+/// above or below all of the model, or at which nothing changes, is no horizon. Throws as layered_medium().
 template <int D>
 Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, const FitChoice& choice);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geology/fit.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -182,6 +183,27 @@ TEST(Fit, LeavesOutWhatCrosses) {
   ASSERT_EQ(fit.left_out.size(), 1U);
   EXPECT_EQ(fit.left_out[0],
             "not fitted: layer at 270 m dip -10 meets or crosses layer at 250 m at x=500, z=181.837");
+}
+
+TEST(Fit, FollowsNoTopAtWhichNothingChanges) {
+  const Grid<2> grid{{40, 30}, 10, {0, 0}};
+  const auto expect_alike = [&](const std::vector<Layer>& split, const std::vector<Layer>& whole) {
+    const auto of_split = fit_layers(grid, split, {}), of_whole = fit_layers(grid, whole, {});
+    EXPECT_TRUE(of_split.left_out.empty());
+    EXPECT_EQ(of_split.summary, of_whole.summary);
+    const auto one = layered_medium(of_split.grid, split, Average::tilted, of_split.rows),
+               other = layered_medium(of_whole.grid, whole, Average::tilted, of_whole.rows);
+    for (const auto property : {Property::vp, Property::vs, Property::rho})
+      EXPECT_TRUE(std::equal(one[property].begin(), one[property].end(), other[property].begin()));
+    EXPECT_EQ(tilted_means(one), tilted_means(other));
+  };
+  const Layer top(0, 2000, 1000, 2000), rock(203, 3000, 1700, 2300);
+  expect_alike({top, {133, 2000, 1000, 2000}, rock}, {top, rock});
+  // It would cross the top of the rock.
+  expect_alike({top, {133, 2000, 1000, 2000, 12}, rock}, {top, rock});
+  // Where it rises above the other, something changes there.
+  const auto crossing = fit_layers(grid, {top, {100, 2500, 1300, 2100}, {143, 2500, 1300, 2100, -15}}, {});
+  EXPECT_FALSE(crossing.left_out.empty() && crossing.summary.find("143") == std::string::npos);
 }
 
 TEST(Fit, KeepsHorizonsOnTheirFacesWhereOthersBendRows) {
