@@ -134,18 +134,13 @@ template <int D>
 class Refit {
  public:
   Refit(const Model<D>& from, const Grid<D>& grid)
-      : from_(from), knots_from_(knots_of(from.grid())), knots_to_(knots_of(grid)), shares_(from, to_) {
-    to_.title = from.title;
-    to_.source = from.source;
-    to_.history = from.history;
-    to_.geology = from.geology;
-    to_.fracture_sets = from.fracture_sets;
-    to_.medium = Medium<D>(grid, from.medium);
+      : from_(from),
+        to_(without_values(from, grid)),
+        knots_from_(knots_of(from.grid())),
+        knots_to_(knots_of(grid)),
+        shares_(from, to_) {
     // Where interfaces lie in old cells is not known.
     drop_tilted_means(to_.medium);
-    if (!from.fracture.empty()) to_.fracture = Field<D, std::uint8_t>(grid);
-    if (!from.fracture_share.empty()) to_.fracture_share = Field<D>(grid);
-    to_.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
     scalars_ = from.medium.properties();
     std::erase_if(scalars_, [](Property property) { return row_of(property).mean == Mean::elastic; });
   }

@@ -134,17 +134,9 @@ struct Regridding {
     grid.origin_m = old.origin_m;
     for (std::size_t axis = 0; axis < D; ++axis)
       feet[axis] = feet_of(old.shape[axis], old.spacing_m, grid.shape[axis], spacing_m);
-    model.title = from.title;
-    model.source = from.source;
-    model.history = from.history;
-    model.geology = from.geology;
-    model.fracture_sets = from.fracture_sets;
-    model.medium = Medium<D>(grid, from.medium);
+    model = without_values(from, grid);
     // Where interfaces lie in old cells is not known.
     drop_tilted_means(model.medium);
-    if (!from.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
-    if (!from.fracture_share.empty()) model.fracture_share = Field<D>(grid);
-    model.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
   }
 
   /// Calls fill(new cell, its index, the old cell its centre lies in) and takes over the fractures and their
@@ -277,17 +269,13 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
     grid.origin_m[axis] = from.origin_m[axis] + double(first[axis]) * h;
   }
   grid.origin_m[D - 1] = 0;
-  Model<D> result = model;
+  auto result = without_values(model, grid);
   // Depths count from another top.
   result.geology.layers.clear();
   result.geology.marmousi.reset();
   for (auto& set : result.fracture_sets)
     for (auto& trace : set.traces)
       for (auto& vertex : trace) vertex[D - 1] -= double(first[D - 1]) * from.spacing_m;
-  result.medium = Medium<D>(grid, model.medium);
-  if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
-  if (!model.fracture_share.empty()) result.fracture_share = Field<D>(grid);
-  result.prestress_pa.assign(model.prestress_pa.size(), Field<D>(grid));
   const auto properties = model.medium.properties();
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     auto at = grid.index(n);

@@ -78,6 +78,20 @@ struct Model {
   const Grid<D>& grid() const { return medium.grid(); }
 };
 
+/// A model of another grid with all that one holds besides its cells: those have no values yet.
+template <int D>
+Model<D> without_values(const Model<D>& of, const Grid<D>& grid) {
+  Model<D> model;
+  model.medium = Medium<D>(grid, of.medium);
+  if (!of.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
+  model.fracture_sets = of.fracture_sets;
+  if (!of.fracture_share.empty()) model.fracture_share = Field<D>(grid);
+  model.prestress_pa.assign(of.prestress_pa.size(), Field<D>(grid));
+  model.title = of.title, model.source = of.source, model.history = of.history;
+  model.geology = of.geology;
+  return model;
+}
+
 /// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values or others
 /// that the row of a property does not let through (of an optional one outside void), rho = 0 with vp or vs
 /// set, vp = 0 outside void, speeds and densities that look like km/s, ft/s or g/cm3, vs > vp/sqrt(2) (with
