@@ -46,8 +46,21 @@ ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_
     of.error = share * sizes[0].derived + of.rest;
     return of.error;
   };
+  // What is too large by that much is known no better: as much again may be something else.
+  std::vector<double> shares = {0, most * most};
   const double without = bound(0);
-  if (!(bound(most) < without)) bound(0);
+  if (apart.size() > 2 && kept > 1 && of.order == kept) {
+    // Two differences, two unknowns: the share, and the rest of the order that is kept.
+    const auto of_rest = [&](std::size_t n) { return std::pow(std::pow(ratio(n), kept) - 1, 2); };
+    const auto squared = [&](double value) { return value * value; };
+    const double square = (squared(apart[1]) * of_rest(2) - squared(apart[2]) * of_rest(1)) /
+                          (squared(derived(1)) * of_rest(2) - squared(derived(2)) * of_rest(1));
+    if (square > 0 && square * squared(derived(1)) <= squared(apart[1])) shares.push_back(std::sqrt(square));
+  }
+  double least_share = 0, least = without;
+  for (const double share : shares)
+    if (const double error = bound(share); error < least) least_share = share, least = error;
+  bound(least_share);
   of.apart = apart[1];
   // Smaller cells differ the other way.
   const double factor = of.apart > 0 ? std::copysign(of.error / of.apart, ratio(1) - 1) : 0;

@@ -22,12 +22,14 @@ struct SizedTraces {
 double order_of_sizes(double d1, double d2, double r1, double r2, double kept = 2);
 
 /// What is wrong with the traces in the first cells (exact ones taken away), by those in the others: of an
-/// error of order p, u_n - u_0 = (r_n^p - 1) e. Two bounds are known, and the lesser counts. One takes all of
-/// u_1 - u_0 to be of the order that the three sizes show, `kept` at most: what is of a higher order is less
-/// in the first cells. The other knows what dispersion of the direct waves, of such a higher order, makes of
-/// the differences: of |u_n - u_0|^2 that squared is taken off, the order is that of the rest, and what is
-/// derived for the first cells is added to it. Where less is found than is derived, that counts by as much
-/// less. Of two sizes p is `order_of_two`.
+/// error of order p, u_n - u_0 = (r_n^p - 1) e. Bounds of it are known, and the least counts. One takes all
+/// of u_1 - u_0 to be of the order that the three sizes show, `kept` at most: what is of a higher order is
+/// less in the first cells. The others know how dispersion, of such a higher order, falls with the cells, by
+/// that of the direct waves: a share of it, squared, is taken off |u_n - u_0|^2, the order is that of the
+/// rest, and the share of what is derived for the first cells is added to it. The share is 1; k^2 where less
+/// is found than is derived, by a factor k, since that is known to a factor of k alone; or, where the
+/// differences grow as of the order kept or faster and that is not the first, the one that leaves a rest of
+/// that order. Of two sizes p is `order_of_two`.
 struct ErrorOfSizes {
   double order = 1;
   double apart = 0;           // |u_1 - u_0|

@@ -12,6 +12,7 @@
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
 #include "scene/orders.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave {
 namespace {
@@ -24,14 +25,6 @@ constexpr double finer_ratios[] = {1 / 1.5, 1 / 1.4, 1 / 1.75, 0.5};
 constexpr int parts_around = 10, parts_of_a_ratio = 200;
 /// Sizes that differ by less tell nothing of an order.
 constexpr double least_apart = 1.15;
-
-template <int D>
-bool any_absorbing(const Scene<D>& scene) {
-  for (int axis = 0; axis < D; ++axis)
-    for (const int side : {0, 1})
-      if (scene.edges[axis][side] == EdgeLaw::absorbing) return true;
-  return false;
-}
 
 /// The ratios, each moved to where level horizons lie in cells as they do in those of the setting; those in
 /// which they do so to a tenth of a cell come before those to two tenths, and so on.
@@ -198,7 +191,7 @@ double nearest_receiver_m(const SceneRuns<D>& runs) {
 
 template <int D>
 std::optional<AccuracySetting> with_wider_edges(const SceneRuns<D>& runs, AccuracySetting setting) {
-  if (!any_absorbing(runs.scene())) return std::nullopt;
+  if (!any_edge_absorbs(runs.scene())) return std::nullopt;
   setting.zone_cells = 2 * runs.zone_of(setting);
   return setting;
 }
