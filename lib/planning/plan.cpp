@@ -30,8 +30,6 @@ namespace {
 /// In so many steps no bands and no closed boxes that were tried gained energy at any order; at order 5 and
 /// below bands did not in twice as many either (docs/theory/bands.md, docs/theory/interfaces.md).
 constexpr double steps_without_gain = 10000;
-/// What waves along an interface may gain of their amplitude in a step (docs/theory/interfaces.md).
-constexpr double gain_in_a_step = 2.5e-5;
 
 /// Fewer cells per wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;

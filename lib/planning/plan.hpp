@@ -7,6 +7,10 @@
 
 namespace slipwave {
 
+/// What waves along an interface of unlike rocks may gain of their amplitude in a step: 2.51e-5 is the most
+/// that was measured (docs/theory/interfaces.md).
+inline constexpr double gain_in_a_step = 2.6e-5;
+
 /// What shoot() would do, how well, and at what cost.
 template <int D>
 struct Plan {
