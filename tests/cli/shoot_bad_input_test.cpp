@@ -77,7 +77,7 @@ TEST_F(ShootBadInput, ALongRunInAClosedBoxOfUnlikeRocksIsAWarning) {
             options + " -o box.sgy");
     EXPECT_EQ(ran.code, 0) << ran.err;
     return ran.err.find(
-               "warning: no edge absorbs, and waves along interfaces of unlike rocks may gain up to 32 % "
+               "warning: no edge absorbs, and waves along interfaces of unlike rocks may gain up to 33 % "
                "of their amplitude in 11000 steps") != std::string::npos;
   };
   const std::string closed = "--sides free --time-step 0.001272727272727273 ",
