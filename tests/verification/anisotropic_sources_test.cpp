@@ -395,6 +395,8 @@ struct ForceInSpace {
 double error_of_a_force(const Material& rock, int cells, int order = 7) {
   ForceInSpace force(rock, cells, false);
   force.scene.numerics.order = order;
+  // Edges of the usual width send back 0.5 % of waves this long in crossed rock; they are not what is asked.
+  if (cells > 20) force.scene.numerics.zone_cells = 40;
   return force.error(AnisotropicSpace(rock));
 }
 double error_with_loss(const Material& rock, const Qualities& of, int cells, std::size_t receivers) {
