@@ -185,7 +185,7 @@ inline std::vector<ClosedForm<2>> closed_forms() {
   };
 }
 
-/// The same in space: an explosion in water, on mirrors that make it the whole space.
+/// The same in 3-D: an explosion in water, on mirrors that make it the whole space.
 inline std::vector<ClosedForm<3>> closed_forms_in_3d() {
   static constexpr Rock water{1500, 0, 1000};
   static constexpr double interval_s = 0.001, h = 5;
@@ -220,7 +220,7 @@ inline std::vector<ClosedForm<3>> closed_forms_in_3d() {
       }
     return std::vector<Gather>{gather};
   };
-  return {{"in space, an explosion in water", true, scene, exact}};
+  return {{"in 3-D, an explosion in water", true, scene, exact}};
 }
 
 /// Of scenes drawn: another where the environment says so.

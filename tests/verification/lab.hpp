@@ -36,11 +36,11 @@ class Lab {
  public:
   enum Row { vx, vz, sxx, szz, sxz };
 
-  /// With `parted` faces between cells.
+  /// With `split` faces between cells.
   Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s, int time_order = 2,
-      std::vector<SplitFace<2>> parted = {})
+      std::vector<SplitFace<2>> split = {})
       : medium_(medium),
-        domain_(domain_with(make_domain(medium_, edges, 1, {}, order), std::move(parted))),
+        domain_(domain_with(make_domain(medium_, edges, 1, {}, order), std::move(split))),
         state_(std::make_unique<State<2, Real>>(
             make_state<2, Real>(domain_.grid.shape, domain_.material_kind()))),
         sweeps_(*state_, domain_, order),
@@ -74,9 +74,9 @@ class Lab {
   }
 
  private:
-  static Domain<2> domain_with(Domain<2> domain, std::vector<SplitFace<2>> parted) {
-    for (auto& face : parted) face.behind = domain.computed_cell(face.behind);
-    domain.split = std::move(parted);
+  static Domain<2> domain_with(Domain<2> domain, std::vector<SplitFace<2>> split) {
+    for (auto& face : split) face.behind = domain.computed_cell(face.behind);
+    domain.split = std::move(split);
     return domain;
   }
   Medium<2> medium_;

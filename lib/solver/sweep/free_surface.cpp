@@ -45,14 +45,27 @@ class AlongSurface {
   std::vector<SurfaceTerm<D>> terms_;
 };
 
-/// N of the surface where a cell ends, and how far the first ghost is from it along the axis, in cells.
+/// N of the first (side 0) or last face of the rows of a fitted grid at a cell beside it, and the height of
+/// this cell in cells.
 template <int D>
-std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& at, int axis, int side) {
-  if (domain.curvilinear(at[D - 1])) {
-    const auto [normal, height] = end_of_rows(domain, at, side);
-    return {normal_in_grid<D>(normal), height};
+std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side) {
+  constexpr int z = D - 1, corners = 1 << z;
+  RowVector<D, double> normal{};
+  normal.z = 1;
+  double height = 0;
+  for (int n = 0; n < corners; ++n) {
+    Index<D> upper = at, lower = at;
+    for (int axis = 0; axis < z; ++axis) {
+      upper[axis] += (n >> axis) & 1;
+      lower[axis] = upper[axis];
+    }
+    ++lower[z];
+    const double depth = corner_depth(domain, upper), below = corner_depth(domain, lower);
+    height += (below - depth) / corners;
+    for (int axis = 0; axis < z; ++axis)
+      component(normal, axis) -= ((n >> axis) & 1 ? 2.0 : -2.0) / corners * (side ? below : depth);
   }
-  return {unit_vector<std::size_t(D)>(std::size_t(axis)), axis == D - 1 ? domain.height(at[D - 1]) : 1};
+  return {normal, height};
 }
 
 /// The sign of a field in its mirror image at an edge of an axis.
@@ -92,24 +105,12 @@ bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offse
 }
 
 template <int D>
-std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side) {
-  constexpr int z = D - 1, corners = 1 << z;
-  RowVector<D, double> normal{};
-  normal.z = 1;
-  double height = 0;
-  for (int n = 0; n < corners; ++n) {
-    Index<D> upper = at, lower = at;
-    for (int axis = 0; axis < z; ++axis) {
-      upper[axis] += (n >> axis) & 1;
-      lower[axis] = upper[axis];
-    }
-    ++lower[z];
-    const double depth = corner_depth(domain, upper), below = corner_depth(domain, lower);
-    height += (below - depth) / corners;
-    for (int axis = 0; axis < z; ++axis)
-      component(normal, axis) -= ((n >> axis) & 1 ? 2.0 : -2.0) / corners * (side ? below : depth);
+std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& at, int axis, int side) {
+  if (domain.curvilinear(at[D - 1])) {
+    const auto [normal, height] = end_of_rows(domain, at, side);
+    return {normal_in_grid<D>(normal), height};
   }
-  return {normal, height};
+  return {unit_vector<std::size_t(D)>(std::size_t(axis)), axis == D - 1 ? domain.height(at[D - 1]) : 1};
 }
 
 template <int D>
@@ -373,7 +374,7 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, const
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_slope);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, add_term);
-SLIPWAVE_INSTANTIATE_D(FUNCTION, end_of_rows);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_at);
 SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class FreeSurface);
 
 }  // namespace slipwave::solver

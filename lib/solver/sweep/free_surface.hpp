@@ -36,10 +36,10 @@ template <int D>
 bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offset, int row, double weight,
               std::vector<SurfaceTerm<D>>& terms);
 
-/// N of the first (side 0) or last face of the rows of a fitted grid at a cell beside it, and the height of
-/// this cell in cells.
+/// N of the surface where a cell ends on a side (0 low, 1 high) of an axis, in curvilinear rows with z = 1,
+/// and how far the first ghost is from it along the axis, in cells.
 template <int D>
-std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side);
+std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& at, int axis, int side);
 
 /// Free surfaces across one axis on one side of cells (0 low, 1 high): an edge of the grid, or all faces
 /// between cells and void inside it. In sweeps across it holds the corrections of the antisymmetric extension

@@ -185,24 +185,11 @@ void add_bend(const Domain<D>& domain, const Index<D>& at, const End& end, int c
                (behind ? -0.5 : 0.5) * per_cell / cell_along(domain, at, along), behind);
 }
 
-/// What a normal traction adds to the waves that enter at a face, as the Riemann solution takes them: in
-/// curvilinear rows in 2-D along N, times |N|, in 3-D as a vector.
+/// What a normal traction adds to the waves that enter at a face with the vector N, in the order of pairs, as
+/// the Riemann solution takes them: in 2-D along N, times |N|, in 3-D as a vector.
 template <int D>
-std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>& domain, const Index<D>& at,
-                                                                int side) {
-  if (!domain.curvilinear(at[D - 1])) return {1};
-  const auto normal = end_of_rows(domain, at, side).first;
-  if constexpr (D == 2)
-    return {std::sqrt(dot(normal, normal)), 0};
-  else
-    return {normal.z, normal.x, normal.y};
-}
-
-/// N of the surface, whose z is 1.
-template <int D, class Real>
-RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, int side) {
-  if (!domain.curvilinear(at[D - 1])) return in_numbers<Real>(row_vector<D>(unit_vector<std::size_t(D)>(0)));
-  return in_numbers<Real>(end_of_rows(domain, at, side).first);
+Point<D> entering_per_normal_traction(const Point<D>& normal) {
+  return D == 2 ? Point<D>{std::sqrt(dot_product(normal, normal))} : normal;
 }
 
 /// Whether the extension beyond the surface is corrected there.
@@ -238,6 +225,7 @@ void SurfaceTractions<D, Real>::add(const Domain<D>& domain, const Index<D>& at,
   const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
   const Shares shares = shares_of(zs * zs / (zp * zp), curvilinear);
   const auto c = elasticity_at(domain, at);
+  const auto surface = in_pairs<D>(surface_at(domain, at, axis_, side_).first, axis_);
   Cell cell{number,
             place,
             b,
@@ -245,9 +233,9 @@ void SurfaceTractions<D, Real>::add(const Domain<D>& domain, const Index<D>& at,
             Real(shares.tangential * zs * zs),
             Real(c.voigt[std::size_t(axis_)][std::size_t(axis_of_pair<D>(axis_, 1))]),
             Real(shares.bend),
-            surface_normal<D, Real>(domain, at, side_),
+            in_numbers<Real>(row_vector<D>(surface)),
             0};
-  const auto entering = entering_per_normal_traction(domain, at, side_);
+  const auto entering = entering_per_normal_traction<D>(surface);
   for (std::size_t pair = 0; pair < D; ++pair)
     cell.normal[pair] = Real(shares.normal * zs * zs * entering[pair]);
   Pattern pattern;
