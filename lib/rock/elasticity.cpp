@@ -14,6 +14,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 /// Directions of half a circle, and of half a sphere, among which backward group velocities are searched.
 constexpr int directions = 360, rings = 16, around = 64;
+/// How close to the best direction that search comes, radians: the largest share is flat there.
+constexpr double direction_tolerance = 1e-6;
 /// Less is rounding.
 constexpr double least_orthorhombic = 1e-9, least_backward = 1e-9;
 
@@ -188,20 +190,54 @@ Point<D> phase_speeds(const Elasticity<D>& elasticity, double rho, const Point<D
   return speeds;
 }
 
+namespace {
+
+/// The group velocity of the plane waves in a direction, backward along an axis, as a share of their phase
+/// speed: the largest of all of them.
+template <int D>
+double backward_share(const Elasticity<D>& elasticity, std::size_t axis, const Point<D>& direction) {
+  const auto waves = waves_along<D>(elasticity, direction);
+  const auto load = tractions<D>(elasticity, unit_vector<std::size_t(D)>(axis), direction);
+  double most = 0;
+  for (std::size_t wave = 0; wave < D; ++wave) {
+    // The group velocity along the axis times the phase speed and the density.
+    const double group = dot_product(waves.vectors[wave], product_of(load, waves.vectors[wave]));
+    most = std::max(most, -direction[axis] * group / waves.values[wave]);
+  }
+  return most;
+}
+
+}  // namespace
+
 template <int D>
 double backward_group_velocity(const Elasticity<D>& elasticity, int axis) {
-  const auto along = std::size_t(axis);
+  const auto share = [&](const Point<D>& direction) {
+    return backward_share<D>(elasticity, std::size_t(axis), direction);
+  };
   double most = 0;
-  for (const auto& n : half_of_all_directions<D>()) {
-    const auto waves = waves_along<D>(elasticity, n);
-    const auto load = tractions<D>(elasticity, unit_vector<std::size_t(D)>(along), n);
-    for (std::size_t wave = 0; wave < D; ++wave) {
-      // The group velocity along the axis times the phase speed and the density.
-      const double group = dot_product(waves.vectors[wave], product_of(load, waves.vectors[wave]));
-      most = std::max(most, -n[along] * group / waves.values[wave]);
-    }
+  Point<D> best{};
+  const auto keep_larger = [&](const Point<D>& direction) {
+    const double found = share(direction);
+    if (found <= most) return false;
+    most = found, best = direction;
+    return true;
+  };
+  for (const auto& direction : half_of_all_directions<D>()) keep_larger(direction);
+  if (most < least_backward) return 0;
+  // From the best of these uphill: else rock in a plane and in space would differ by what lies between them.
+  for (double step = std::numbers::pi / (2 * rings); step > direction_tolerance;) {
+    bool rose = false;
+    for (std::size_t a = 0; a < D; ++a)
+      for (const double way : {step, -step}) {
+        auto beside = best;
+        beside[a] += way;
+        const double length = std::sqrt(dot_product(beside, beside));
+        for (auto& component : beside) component /= length;
+        rose = keep_larger(beside) || rose;
+      }
+    if (!rose) step /= 2;
   }
-  return most < least_backward ? 0 : most;
+  return most;
 }
 
 template <int D>
