@@ -55,7 +55,7 @@ class Domain {
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
   IndexRange own;                   // rows of the computed grid that this process owns
-  std::vector<SplitFace<D>> split;  // of the computed grid, by axis and cell
+  std::vector<SplitFace<D>> split;  // of the computed grid, by axis and cell: no uniform run crosses these
   std::vector<std::int64_t> soft;   // cells that carry next to no stress (soft_cells())
   int order = 1;                    // of the reconstruction, at most
   /// These two are of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that

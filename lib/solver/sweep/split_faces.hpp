@@ -9,6 +9,7 @@
 
 #include "base/archive.hpp"
 #include "solver/sweep/domain.hpp"
+#include "solver/sweep/face_treatment.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/shot_report.hpp"
 #include "solver/sweep/state.hpp"
@@ -21,21 +22,18 @@ namespace slipwave::solver {
 /// (S35). The stencils beside them read images() (S36). Retains the tractions, slip and opening, and how far
 /// a face whose strength depends on it has slid.
 template <int D, class Real>
-class SplitFaces {
+class SplitFaces : public FaceTreatment<D, Real> {
  public:
   /// Keeps a reference to the state; `unit` of its fields.
   SplitFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s, double unit);
 
   /// Whether any is across this axis.
   bool any(int axis) const;
-  /// Whether any parts a cell of a line from its neighbours along the axis.
-  bool beside(int axis, std::int64_t line) const;
+  bool beside(int axis, std::int64_t line) const override;
   /// Whether no face before these cells of a line retains a traction.
   bool at_rest(std::int64_t line, const IndexRange& columns) const;
-  /// Changes what a sweep over `scale` of the step has left in these columns of a line, whose faces before
-  /// and behind are `lo` and `hi`. Only with `remember` the tractions advance, with the cell behind the face.
   void add(int axis, std::int64_t line, const IndexRange& columns, Real scale, InterfaceStates<Real> lo,
-           InterfaceStates<Real> hi, const SweptRows<Real>& rows, bool remember);
+           InterfaceStates<Real> hi, const SweptRows<Real>& rows, bool remember) override;
 
   /// Returns the images of a pair, by slot: the slot is twice the place of the face in the domain's list,
   /// plus 1 for the side behind it.
@@ -54,7 +52,7 @@ class SplitFaces {
   /// Gives access to what it retains of these rows of the last axis (in 3-D planes), for neighbouring
   /// subdomains.
   void exchange(const IndexRange& rows, const std::function<void(Real* values, std::int64_t count)>& to);
-  std::int64_t memory_bytes() const;
+  std::int64_t memory_bytes() const override;
   /// How many faces there are, and how many that slide or open.
   std::vector<EffectShare> shares() const;
   /// Adds the energy of the springs to what is left in the model, and the work of slip.

@@ -214,7 +214,9 @@ void Sweeps<D, Real>::use(SweepFilter<D, Real>* filter) {
 
 template <int D, class Real>
 void Sweeps<D, Real>::split_faces(const Domain<D>& domain, double dt_s, double unit) {
-  if (!domain.split.empty()) split_ = std::make_unique<SplitFaces<D, Real>>(state_, domain, dt_s, unit);
+  if (domain.split.empty()) return;
+  split_ = std::make_unique<SplitFaces<D, Real>>(state_, domain, dt_s, unit);
+  use(split_.get());
 }
 
 template <int D, class Real>
@@ -250,8 +252,8 @@ template <int D, class Real>
 std::int64_t Sweeps<D, Real>::memory_bytes() const {
   std::int64_t bytes = curvilinear_stencils_.memory_bytes() + metric_.memory_bytes() +
                        corrections_.memory_bytes() + anisotropic_cells_.memory_bytes() +
-                       anisotropic_across_.memory_bytes() + bytes_of(plain_lines_) +
-                       (split_ ? split_->memory_bytes() : 0);
+                       anisotropic_across_.memory_bytes() + bytes_of(plain_lines_);
+  for (const auto* treatment : treatments_) bytes += treatment->memory_bytes();
   for (const auto& of_axis : stencils_)
     for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
   for (const auto& of_axis : surfaces_)
@@ -550,8 +552,8 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
       split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                     between_faces);
       add_missing_stress(axis, line, columns, fields, pitch, std::abs(own_scale), flux);
-      if (split_)
-        split_->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
+      for (auto* treatment : treatments_)
+        treatment->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
     }
     work.prefetch().prefetch_one();
   });
@@ -1012,7 +1014,8 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};
-  if (split_ && split_->beside(axis, layout.line_number(advanced))) return false;
+  for (const auto* treatment : treatments_)
+    if (treatment->beside(axis, layout.line_number(advanced))) return false;
   // Rows in between become those before and behind others.
   if (scale_of(axis, here, 1) != scale_of(axis, advanced, 1)) return false;
   const auto& plain = plain_lines_[std::size_t(axis)];

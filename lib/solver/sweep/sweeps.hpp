@@ -47,6 +47,8 @@ class Sweeps {
   /// From now on this filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
   void use(SweepFilter<D, Real>* filter);
+  /// From now on this treats its faces, which are among Domain::split; it must outlive the sweeps.
+  void use(FaceTreatment<D, Real>* treatment) { treatments_.push_back(treatment); }
   /// From now on the faces of the domain that fractures split are so; `unit` of the fields. Does nothing
   /// where there are none.
   void split_faces(const Domain<D>& domain, double dt_s, double unit);
@@ -276,6 +278,7 @@ class Sweeps {
   Cells anisotropic_cells_;
   AnisotropicCellsAcross<D, Real> anisotropic_across_;  // in curvilinear rows
   std::unique_ptr<SplitFaces<D, Real>> split_;
+  std::vector<FaceTreatment<D, Real>*> treatments_;
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
