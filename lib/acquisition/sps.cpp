@@ -93,8 +93,8 @@ struct PointHash {
   }
 };
 
-std::string shown(const PointName& name) {
-  return "line " + slipwave::shown(name.line) + " point " + slipwave::shown(name.point) +
+std::string text_of(const PointName& name) {
+  return "line " + shown(name.line) + " point " + shown(name.point) +
          (name.index == 1 ? "" : " index " + std::to_string(name.index));
 }
 
@@ -113,7 +113,7 @@ struct Points {
     const auto [same, is_new] = numbers.try_emplace(name, std::uint32_t(places.size()));
     if (!is_new && places[same->second] == place) return;
     if (!is_new)
-      throw Error(record.place() + ": found " + shown(name) + " at two places, expected it at one");
+      throw Error(record.place() + ": found " + text_of(name) + " at two places, expected it at one");
     names.push_back(name);
     places.push_back(place);
   }
@@ -165,7 +165,7 @@ std::uint32_t SpsReader::point(const Points& points, const PointName& name, cons
                                const Columns& columns, const char* kind) const {
   const auto found = points.numbers.find(name);
   if (found == points.numbers.end())
-    record.refuse(columns, "found " + shown(name) + ", which has no " + std::string(kind) + " record");
+    record.refuse(columns, "found " + text_of(name) + ", which has no " + std::string(kind) + " record");
   return found->second;
 }
 
@@ -177,9 +177,8 @@ void SpsReader::add_receivers(const Record& record, ShotRuns& shot, const Receiv
   const std::uint32_t first = point(receivers_, from, record, from_receiver, "R");
   const double step = channels.count > 1 ? (to - from.point) / double(channels.count - 1) : 0;
   if (channels.count == 1 ? to != from.point : step == 0)
-    record.refuse(to_receiver, "found receivers " + slipwave::shown(from.point) + " to " +
-                                   slipwave::shown(to) + " for " + std::to_string(channels.count) +
-                                   " channels, expected as many");
+    record.refuse(to_receiver, "found receivers " + shown(from.point) + " to " + shown(to) + " for " +
+                                   std::to_string(channels.count) + " channels, expected as many");
   const auto name_of = [&](std::uint32_t n) {
     // Point numbers have two decimals.
     return PointName{from.line, std::nearbyint((from.point + n * step) * 100) / 100, from.index};
@@ -272,10 +271,10 @@ void SpsReader::take_header(const Record& record) {
         throw Error(error.what());
       }
     });
-    if (!(found > 0)) record.refuse(factor, "found " + slipwave::shown(found) + ", expected it above 0");
+    if (!(found > 0)) record.refuse(factor, "found " + shown(found) + ", expected it above 0");
     if (factor_ && *factor_ != found)
-      record.refuse(factor, "found " + slipwave::shown(found) + " metres, expected " +
-                                slipwave::shown(*factor_) + " as before (" + factor_place_ + ")");
+      record.refuse(factor, "found " + shown(found) + " metres, expected " + shown(*factor_) +
+                                " as before (" + factor_place_ + ")");
     if (!factor_) factor_place_ = record.place();
     factor_ = found;
   } else if (of == "H20" || (record.text(code) == "H20" && of.size() == 4 && std::isdigit(of[3]) == 0)) {
@@ -299,9 +298,9 @@ double SpsReader::metres_of_unit() const {
                 "0.30480061 of US survey feet");
   // International and US survey feet differ by 2 in a million; factors are written with 7 digits or more.
   if (factor_ && named && std::abs(*factor_ / *named - 1) > 1e-5)
-    throw Error(factor_place_ + ": columns 33-46 (factor to metre): found " + slipwave::shown(*factor_) +
-                ", expected " + slipwave::shown(*named, 8) + ", as the grid units are '" +
-                excerpt(unit_name_) + "' (" + unit_place_ + ")");
+    throw Error(factor_place_ + ": columns 33-46 (factor to metre): found " + shown(*factor_) +
+                ", expected " + shown(*named, 8) + ", as the grid units are '" + excerpt(unit_name_) + "' (" +
+                unit_place_ + ")");
   return factor_.value_or(named.value_or(1));
 }
 

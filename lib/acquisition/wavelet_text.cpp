@@ -15,7 +15,8 @@ namespace slipwave {
 
 namespace {
 
-constexpr const char* expected_kinds = "expected ricker:F, gauss:F, sine:F[:CYCLES] (F in Hz) or file:PATH";
+constexpr const char* expected_wavelets =
+    "expected ricker:F, gauss:F, sine:F[:CYCLES] (F in Hz) or file:PATH";
 
 double positive_frequency(const std::string& text, const std::string& number) {
   const double hz = in_place("wavelet '" + text + "'", [&] { return parse_number(number); });
@@ -177,7 +178,7 @@ Wavelet parse_wavelet(const std::string& text) {
     const double hz = positive_frequency(text, parts[1]);
     return {shape::Sine{hz, parts.size() == 3 ? whole_half_cycles(text, parts[2]) : 1}, text};
   }
-  throw Error("wavelet: found '" + text + "', " + expected_kinds, ErrorKind::usage);
+  throw Error("wavelet: found '" + text + "', " + expected_wavelets, ErrorKind::usage);
 }
 
 }  // namespace slipwave

@@ -46,4 +46,8 @@ std::string shown(double value, int digits) {
   return shown(rounded);
 }
 
+std::string shown_to_thousandths(double value) { return shown(std::round(value * 1000) / 1000); }
+
+void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
+
 }  // namespace slipwave

@@ -44,5 +44,10 @@ std::string printable(const std::string& text);
 std::string shown(double value);
 /// Rounded to so many digits, the rest left out: 160, 1.67, 0.0042.
 std::string shown(double value, int digits);
+/// Rounded to thousandths: of lengths in m to mm.
+std::string shown_to_thousandths(double value);
+
+/// Throws a usage Error.
+[[noreturn]] void refuse(const std::string& sentence);
 
 }  // namespace slipwave

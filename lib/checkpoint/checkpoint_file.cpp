@@ -27,16 +27,12 @@ std::string directory_of(const std::string& path) {
   return at.has_parent_path() ? at.parent_path().string() : ".";
 }
 
-[[noreturn]] void fail(const std::string& path, int error_number) {
-  throw Error(path + ": " + cause_of(error_number));
-}
-
 /// Reads as many bytes as are asked for; throws where the file ends before.
 void read_at(int descriptor, const std::string& path, char* to, std::size_t count, std::uint64_t from) {
   while (count > 0) {
     const ssize_t got = pread(descriptor, to, count, off_t(from));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(path, errno);
+    if (got < 0) fail_on(path, errno);
     if (got == 0) throw Error(path + ": ended while it was read, expected it to stay as it is");
     to += got;
     count -= std::size_t(got);
@@ -46,7 +42,7 @@ void read_at(int descriptor, const std::string& path, char* to, std::size_t coun
 
 void synchronize(int descriptor, const std::string& path) {
   while (fsync(descriptor) != 0)
-    if (errno != EINTR) fail(path, errno);
+    if (errno != EINTR) fail_on(path, errno);
 }
 
 }  // namespace
@@ -91,7 +87,7 @@ void CheckpointWriter::put(const char* from, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(file_.descriptor(), from, count);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path_, errno);
+    if (written < 0) fail_on(path_, errno);
     from += written;
     count -= std::size_t(written);
     bytes_ += std::uint64_t(written);
@@ -109,7 +105,7 @@ void CheckpointWriter::commit() {
     unlink(older.c_str());
     // Where there are no hard links, the older one alone is there for a moment.
     if (link(path_.c_str(), older.c_str()) != 0 && std::rename(path_.c_str(), older.c_str()) != 0)
-      fail(older, errno);
+      fail_on(older, errno);
   }
   in_place(path_, [&] { file_.rename_to(path_); });
   // The names reach the disk, too; not every file system knows that of directories.
@@ -162,7 +158,7 @@ CheckpointPart CheckpointPart::part(std::uint64_t count) {
 
 CheckpointReader::CheckpointReader(const std::string& path)
     : path_(path), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ < 0) fail(path_, errno);
+  if (descriptor_ < 0) fail_on(path_, errno);
   try {
     check();
   } catch (...) {
@@ -177,7 +173,7 @@ void CheckpointReader::refuse(const std::string& sentence) const { throw Error(p
 
 void CheckpointReader::check() {
   struct stat status {};
-  if (fstat(descriptor_, &status) != 0) fail(path_, errno);
+  if (fstat(descriptor_, &status) != 0) fail_on(path_, errno);
   if (!S_ISREG(status.st_mode)) refuse("is not a regular file, expected a checkpoint of sw-shoot");
   bytes_ = std::uint64_t(status.st_size);
   std::array<char, mark.size()> begin{};

@@ -14,13 +14,7 @@
 #include "io/temporary.hpp"
 
 namespace slipwave {
-namespace {
-
-[[noreturn]] void fail(const std::string& path, int error_number) {
-  throw Error(path + ": " + cause_of(error_number));
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <int D>
 SnapshotLog<D>::SnapshotLog(const std::string& path, const Grid<D>& grid, std::size_t fields,
@@ -28,10 +22,10 @@ SnapshotLog<D>::SnapshotLog(const std::string& path, const Grid<D>& grid, std::s
     : path_(path), grid_(grid), mark_(mark) {
   const int begin_anew = mark.bytes == 0 ? O_CREAT | O_TRUNC : 0;
   descriptor_ = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | begin_anew, 0600);
-  if (descriptor_ < 0) fail(path_, errno);
+  if (descriptor_ < 0) fail_on(path_, errno);
   try {
     replay(take, fields);
-    if (ftruncate(descriptor_, off_t(mark_.bytes)) != 0) fail(path_, errno);
+    if (ftruncate(descriptor_, off_t(mark_.bytes)) != 0) fail_on(path_, errno);
   } catch (...) {
     close(descriptor_);
     throw;
@@ -46,7 +40,7 @@ SnapshotLog<D>::~SnapshotLog() {
 template <int D>
 void SnapshotLog<D>::replay(const Take& take, std::size_t fields) {
   struct stat status {};
-  if (fstat(descriptor_, &status) != 0) fail(path_, errno);
+  if (fstat(descriptor_, &status) != 0) fail_on(path_, errno);
   if (std::uint64_t(status.st_size) < mark_.bytes)
     throw Error(path_ + ": found " + std::to_string(status.st_size) + " bytes, expected the " +
                 std::to_string(mark_.bytes) + " of which the checkpoint knows");
@@ -55,7 +49,7 @@ void SnapshotLog<D>::replay(const Take& take, std::size_t fields) {
     while (count > 0) {
       const ssize_t got = ::read(descriptor_, to, count);
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) fail(path_, errno);
+      if (got < 0) fail_on(path_, errno);
       if (got == 0) throw Error(path_ + ": ended while it was read, expected it to stay as it is");
       to += got;
       count -= std::size_t(got);
@@ -66,7 +60,7 @@ void SnapshotLog<D>::replay(const Take& take, std::size_t fields) {
   if (mark_.bytes != mark_.times * a_time) throw damaged();
   // Checked once before anything of it is used.
   for (const bool use : {false, true}) {
-    if (lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, errno);
+    if (lseek(descriptor_, 0, SEEK_SET) != 0) fail_on(path_, errno);
     Checksum checksum;
     for (std::uint64_t n = 0; n < mark_.times; ++n) {
       double time_s = 0;
@@ -94,7 +88,7 @@ void SnapshotLog<D>::put(const void* first, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(descriptor_, from, count);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path_, errno);
+    if (written < 0) fail_on(path_, errno);
     from += written;
     count -= std::size_t(written);
   }
@@ -121,7 +115,7 @@ template <int D>
 SnapshotMark SnapshotLog<D>::synchronized() {
   if (!failure_.empty()) throw Error(failure_);
   while (fsync(descriptor_) != 0)
-    if (errno != EINTR) fail(path_, errno);
+    if (errno != EINTR) fail_on(path_, errno);
   return mark_;
 }
 

@@ -26,8 +26,6 @@ const std::set<std::string> not_in_config = {"help", "help-all", "version", "con
 
 constexpr int most_threads = 4096;
 
-[[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
-
 // Of --help.
 constexpr std::size_t help_width = 80, help_column = 24;
 

@@ -16,15 +16,15 @@ struct GainRow {
   const char* value;  // what stands behind the colon, nullptr: nothing
 };
 
-constexpr GainRow rows[] = {
+constexpr GainRow gain_rows[] = {
     {Gain::Kind::power, "power", "P"}, {Gain::Kind::exp, "exp", "A"},       {Gain::Kind::agc, "agc", "T"},
     {Gain::Kind::rms, "rms", nullptr}, {Gain::Kind::peak, "peak", nullptr}, {Gain::Kind::scale, "scale", "C"},
     {Gain::Kind::clip, "clip", "C"},
 };
 
-[[noreturn]] void refuse(const std::string& text) {
+[[noreturn]] void refuse_gain(const std::string& text) {
   std::string known;
-  for (const GainRow& row : rows)
+  for (const GainRow& row : gain_rows)
     known.append(known.empty() ? "" : ", ")
         .append(row.name)
         .append(row.value ? std::string(":") + row.value : "");
@@ -58,9 +58,9 @@ void weigh(std::span<double> samples, const SampleAxis& axis, Weight weight) {
 
 Gain parse_gain(const std::string& text) {
   const auto colon = text.find(':');
-  for (const GainRow& row : rows) {
+  for (const GainRow& row : gain_rows) {
     if (text.substr(0, colon) != row.name) continue;
-    if ((colon != std::string::npos) != (row.value != nullptr)) refuse(text);
+    if ((colon != std::string::npos) != (row.value != nullptr)) refuse_gain(text);
     if (!row.value) return {row.kind, 1};
     const double value = in_place(row.name, [&] { return parse_number(text.substr(colon + 1)); });
     if ((row.kind == Gain::Kind::agc || row.kind == Gain::Kind::clip) && !(value > 0))
@@ -69,7 +69,7 @@ Gain parse_gain(const std::string& text) {
       throw Error("found '" + text + "', expected C other than 0", ErrorKind::usage);
     return {row.kind, value};
   }
-  refuse(text);
+  refuse_gain(text);
 }
 
 void Gains::apply(std::span<double> samples, const SampleAxis& axis) {

@@ -29,19 +29,19 @@ NetcdfFile::Variable depth_variable(const NetcdfFile& file) {
 }
 
 /// Coordinates in m, ascending, and whether they stood the other way round.
-struct Axis {
+struct DepthAxis {
   std::vector<double> at_m;
   bool turned = false;
 };
 
-Axis axis_of(const NetcdfFile& file, const std::string& variable, const std::string& dimension,
-             std::size_t length) {
+DepthAxis axis_of(const NetcdfFile& file, const std::string& variable, const std::string& dimension,
+                  std::size_t length) {
   const std::string place = file.shown_name() + ": ";
   if (!file.has_variable(dimension) || file.variable(dimension).dimensions != std::vector{dimension}) {
     throw Error(place + variable + ": found no coordinates along " + dimension + ", expected a variable " +
                 dimension + "(" + dimension + ")");
   }
-  Axis axis{values_in(file, dimension, "m")};
+  DepthAxis axis{values_in(file, dimension, "m")};
   axis.turned = length > 1 && axis.at_m.front() > axis.at_m.back();
   if (axis.turned) std::reverse(axis.at_m.begin(), axis.at_m.end());
   for (std::size_t n = 0; n < length; ++n) {

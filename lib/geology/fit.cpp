@@ -26,8 +26,6 @@ constexpr std::int64_t least_rows = 3;
 // Layers of fewer rows have them counted by thickness alone.
 constexpr std::int64_t thin_rows = 8;
 
-std::string short_number(double value) { return shown(std::round(value * 1000) / 1000); }
-
 double smoothstep(double t) {
   t = std::clamp(t, 0., 1.);
   return t * t * (3 - 2 * t);
@@ -152,11 +150,11 @@ std::string Rows<D>::check_order() const {
     });
     if (thickness.least > 0) continue;
     const auto at =
-        " at " + place(thickness.least_at) + ", z=" + short_number(knots_[k].at(thickness.least_at));
+        " at " + place(thickness.least_at) + ", z=" + shown_to_thousandths(knots_[k].at(thickness.least_at));
     if (k == 0 || (k == 1 && top_is_level())) return knots_[k].name + " leaves the model at its top," + at;
     if (k + 1 < knots_.size()) return knots_[k].name + " meets or crosses " + knots_[k - 1].name + at;
     return knots_[k - 1].name + " leaves the model at its bottom, at " + place(thickness.least_at) +
-           ", z=" + short_number(knots_[k - 1].at(thickness.least_at));
+           ", z=" + shown_to_thousandths(knots_[k - 1].at(thickness.least_at));
   }
   return {};
 }
@@ -186,13 +184,13 @@ std::string Rows<D>::count_rows(std::size_t k) {
     below.row = above.row + count;
     return {};
   }
-  const auto apart = above.name + " and " + below.name + " are " + short_number(cells.least * h()) +
+  const auto apart = above.name + " and " + below.name + " are " + shown_to_thousandths(cells.least * h()) +
                      " m apart at " + place(cells.least_at);
   const std::string thin = std::string("thinner than ") + (least == least_height ? "a fifth" : "a third") +
                            " of a cell of " + shown(h()) + " m";
   if (cells.largest <= largest_height * double(std::max<std::int64_t>(most, 1)))
     return apart + ", rows between them would be " + thin;
-  return apart + " and " + short_number(cells.largest * h()) + " m at " + place(cells.largest_at) +
+  return apart + " and " + shown_to_thousandths(cells.largest * h()) + " m at " + place(cells.largest_at) +
          ", rows between them would be " + thin + " or thicker than 1.6 cells";
 }
 

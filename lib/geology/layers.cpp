@@ -41,8 +41,6 @@ namespace {
 // vp, vs, rho, the fracture code, and what writing them needs.
 constexpr double bytes_a_cell = 16;
 
-std::string short_number(double value) { return shown(std::round(value * 1000) / 1000); }
-
 /// Tops of all layers at the places of a line along x: [place][layer].
 using Tops = std::vector<std::vector<double>>;
 
@@ -478,8 +476,8 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
   for (std::size_t axis = 0; axis < D && spacing_m > 0; ++axis) {
     const double steps = size_m[axis] / spacing_m, whole = std::round(steps);
     if (whole < 1 || std::abs(steps - whole) > 1e-6) {
-      throw Error(shown(size_m[axis]) + " m are " + short_number(steps) + " steps of " + shown(spacing_m) +
-                      " m, expected a whole number",
+      throw Error(shown(size_m[axis]) + " m are " + shown_to_thousandths(steps) + " steps of " +
+                      shown(spacing_m) + " m, expected a whole number",
                   ErrorKind::usage);
     }
   }

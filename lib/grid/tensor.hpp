@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace slipwave {
+
+/// Radians.
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// A symmetric tensor (stress, moment): the diagonal first, then the pairs of axes in order.
 /// 2-D: xx, zz, xz. 3-D: xx, yy, zz, xy, xz, yz.

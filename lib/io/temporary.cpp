@@ -150,6 +150,8 @@ std::string temporary_directory() {
 
 std::string cause_of(int error_number) { return std::strerror(error_number); }
 
+void fail_on(const std::string& path, int error_number) { throw Error(path + ": " + cause_of(error_number)); }
+
 Temporary::Temporary(const std::string& directory, const std::string& prefix) {
   remove_strays(directory, prefix);
   const std::string pattern = (directory + '/').append(prefix).append("XXXXXX.tmp");

@@ -40,5 +40,7 @@ std::string temporary_directory();
 
 /// What errno says, as a sentence part: "No space left on device".
 std::string cause_of(int error_number);
+/// Throws an Error that says so of a file.
+[[noreturn]] void fail_on(const std::string& path, int error_number);
 
 }  // namespace slipwave

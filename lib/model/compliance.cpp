@@ -9,8 +9,6 @@
 namespace slipwave {
 namespace {
 
-[[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
-
 /// "NORMAL,TANGENTIAL", neither below zero.
 std::array<double, 2> pair_of(const std::string& option, const std::string& text) {
   return in_place(option, [&] {

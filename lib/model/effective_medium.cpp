@@ -8,9 +8,7 @@
 namespace slipwave {
 namespace {
 
-[[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
-
-void check(const SlipSystem<2>& system) {
+void check_springs(const SlipSystem<2>& system) {
   if (!system.compliance.gives())
     refuse("these planes have no compliance; expected --compliance, --stiffness or --crack-density");
   if (system.slides()) refuse("an effective medium does not slide, expected planes without friction");
@@ -27,7 +25,7 @@ Elasticity<2> effective_elasticity(const Elasticity<2>& rock, const std::vector<
   double s11 = rock(3, 3) / determinant, s33 = rock(1, 1) / determinant, s55 = 1 / rock(5, 5);
   const double s13 = -rock(1, 3) / determinant;
   for (const auto& system : systems) {
-    check(system);
+    check_springs(system);
     const auto of = compliance_in(system.compliance, rock(3, 3) - 2 * rock(5, 5), rock(5, 5));
     (std::abs(system.normal[0]) > 0.5 ? s11 : s33) += of.normal;
     s55 += of.tangential;

@@ -7,14 +7,13 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "base/parse.hpp"
 #include "geology/noise.hpp"
 #include "model/planar_fracture.hpp"
 
 namespace slipwave {
 namespace {
-
-[[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
 
 template <int D>
 bool within(const Grid<D>& grid, const Point<D>& at) {
@@ -91,7 +90,7 @@ double size_of(const Grid<D>& grid, const RegionIn<D>& region) {
 template <int D, class Draw, class Size>
 std::vector<FractureTrace<D>> drawn(const Grid<D>& grid, const RegionIn<D>& region, const FractureNetwork& of,
                                     const Draw& draw, const Size& size) {
-  check<D>(of);
+  check_network<D>(of);
   const double wanted = of.count > 0 ? 0 : of.intensity_per_m * size_of(grid, region);
   if (of.count == 0) check_number(of, wanted / std::min(mean_size<D>(of), largest_size(grid)));
   const auto &low = region.bounds.low_m, &high = region.bounds.high_m;
@@ -133,7 +132,7 @@ Point<3> direction_about(const Point<3>& mean, double cosine, double turn) {
 }  // namespace
 
 template <int D>
-void check(const FractureNetwork& of) {
+void check_network(const FractureNetwork& of) {
   if (of.count < 0) refuse("--network: found " + std::to_string(of.count) + ", expected at least 1");
   if (of.count == 0 && !(of.intensity_per_m > 0))
     refuse("--intensity: found " + shown(of.intensity_per_m) + ", expected " +
@@ -146,8 +145,7 @@ void check(const FractureNetwork& of) {
   if (of.concentration && !(*of.concentration >= 0))
     refuse("--concentration: found " + shown(*of.concentration) + ", expected it not below zero");
 }
-template void check<2>(const FractureNetwork&);
-template void check<3>(const FractureNetwork&);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, check_network);
 
 double drawn_length(const FractureNetwork& of, double share) {
   const double power = 1 - of.exponent, ratio = of.most_m / of.least_m;

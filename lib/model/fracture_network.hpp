@@ -28,7 +28,7 @@ struct FractureNetwork {
 
 /// Throws a usage Error that names the option where a value is out of range.
 template <int D>
-void check(const FractureNetwork& network);
+void check_network(const FractureNetwork& network);
 
 /// A length for a share from 0 to 1 of all fractures that are shorter (theory.md (S31)).
 double drawn_length(const FractureNetwork& network, double share);

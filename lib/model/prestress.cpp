@@ -16,7 +16,7 @@ namespace {
 
 constexpr double gravity_m_s2 = 9.80665;
 // Room for the rounding of stresses to float: planes at the verge of slip are welcome.
-constexpr double slack = 1e-6;
+constexpr double rounding_share = 1e-6;
 
 /// Mass above the centre of each cell on a unit area, kg/m2. z is the last axis.
 template <int D>
@@ -144,7 +144,7 @@ void check_prestress_of_faces(const Model<D>& model) {
     const auto& law = face.law;
     if (!law.any()) continue;
     const auto [normal, shear] = law.prestress_pa;
-    const double rounding = slack * (std::abs(normal) + std::abs(shear));
+    const double rounding = rounding_share * (std::abs(normal) + std::abs(shear));
     const auto refuse = [&](const std::string& found) {
       throw Error("the prestress at " + place_of(model.grid(), model.grid().flat(face.behind)) + ' ' + found);
     };
@@ -185,7 +185,7 @@ void check_prestress(const Model<D>& model) {
       if (!system.slides()) continue;
       Point<D> traction{};
       const double normal = resolve<D, double>(system.normal, stress, traction);
-      const double shear = length<D, double>(traction), rounding = slack * largest;
+      const double shear = length<D, double>(traction), rounding = rounding_share * largest;
       const double strength = Coulomb::strength<double>(
           {.friction = system.friction, .cohesion_pa = system.strength_pa}, normal, 0);
       if (system.opens && normal > rounding)

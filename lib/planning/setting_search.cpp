@@ -35,7 +35,7 @@ const std::vector<Scheme>& schemes() {
 
 /// Fewer cells than this in the shortest wave that matters hold no wave in the larger cells that it is
 /// measured in.
-constexpr double fewest_cells = 2.5;
+constexpr double fewest_cells_tried = 2.5;
 /// Cells are split into this many a side at most.
 constexpr double most_parts = 16;
 
@@ -53,7 +53,7 @@ SettingSearch<D>::SettingSearch(const SceneRuns<D>& runs, std::function<bool(con
       scene_(runs.scene()),
       fits_(std::move(fits)),
       largest_m_(slowest_wave(scene_.model.medium).speed / highest_frequency_hz(scene_.survey) /
-                 fewest_cells) {
+                 fewest_cells_tried) {
   // No receiver may come to stand in the cells that a source is spread over.
   largest_m_ = std::min(largest_m_, nearest_receiver_m(runs) / cells_of_a_source);
   // The smallest side must stay a model.

@@ -108,7 +108,7 @@ void set_axes(PanelSpec& spec, const std::vector<Content>& contents) {
   widen(spec.y, 0);
 }
 
-struct Drawing {
+struct ErrorDrawing {
   std::vector<Content> panels;
   std::vector<LegendEntry> legend;
 };
@@ -121,8 +121,8 @@ std::size_t index_in(std::vector<Value>& known, const Value& value) {
   return at;
 }
 
-Drawing arrange(const std::vector<AccuracyTable>& tables, bool overlay) {
-  Drawing drawing;
+ErrorDrawing arrange(const std::vector<AccuracyTable>& tables, bool overlay) {
+  ErrorDrawing drawing;
   std::vector<Method> methods;
   std::vector<std::vector<ErrorSeries>> series;
   for (const auto& table : tables) {

@@ -101,7 +101,7 @@ struct CommonScale {
 };
 
 /// Everything of a picture: panels that share a scale stand beside each other.
-struct Drawing {
+struct GatherDrawing {
   std::vector<GatherContent> contents;
   std::vector<CommonScale> scales;
   std::vector<std::size_t> scale_of;  // of each content
@@ -113,7 +113,7 @@ struct Drawing {
   }
 };
 
-Drawing drawing_of(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look) {
+GatherDrawing drawing_of(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look) {
   std::set<std::string> files;
   std::set<Component> components;
   for (const auto& gather : gathers) {
@@ -122,7 +122,7 @@ Drawing drawing_of(std::vector<NamedGather> gathers, const GatherStyle& style, c
   }
   auto items = items_of(std::move(gathers), style);
   const auto unit = [](const Item& item) { return typeset_unit(unit_of(item.gather.section.component)); };
-  Drawing drawing;
+  GatherDrawing drawing;
   for (const auto& item : items)
     if (std::none_of(drawing.scales.begin(), drawing.scales.end(),
                      [&](const CommonScale& scale) { return scale.unit == unit(item); }))
@@ -180,7 +180,8 @@ std::vector<Rect> rooms_of(const std::vector<PanelSpec>& specs, const Rect& all,
   return rooms;
 }
 
-Picture draw_side_by_side(const Drawing& drawing, const GatherStyle& style, const Look& look, Page page) {
+Picture draw_side_by_side(const GatherDrawing& drawing, const GatherStyle& style, const Look& look,
+                          Page page) {
   Picture picture;
   const auto count = drawing.contents.size();
   if (page.height_pt == 0) {
@@ -214,7 +215,7 @@ Picture draw_side_by_side(const Drawing& drawing, const GatherStyle& style, cons
 }
 
 /// Refuses what has no common axes.
-void check_overlaid(const Drawing& drawing) {
+void check_overlaid(const GatherDrawing& drawing) {
   if (drawing.scales.size() > 1)
     throw Error("--overlay: found components in " + drawing.scales[0].unit + " and in " +
                     drawing.scales[1].unit + ", expected one unit; choose a --component",
@@ -227,7 +228,7 @@ void check_overlaid(const Drawing& drawing) {
 }
 
 /// Lines of all gathers in one panel, a colour each.
-Picture draw_overlaid(const Drawing& drawing, const Look& look, Page page) {
+Picture draw_overlaid(const GatherDrawing& drawing, const Look& look, Page page) {
   check_overlaid(drawing);
   Picture picture;
   if (page.height_pt == 0) page.height_pt = 13 * points_per_cm;

@@ -23,7 +23,7 @@ struct AxisName {
   TraceAxis axis;
   const char* name;
 };
-constexpr std::array<AxisName, 8> axis_names = {{{TraceAxis::automatic, "auto"},
+constexpr std::array<AxisName, 8> named_axes = {{{TraceAxis::automatic, "auto"},
                                                  {TraceAxis::x, "x"},
                                                  {TraceAxis::y, "y"},
                                                  {TraceAxis::midpoint, "midpoint"},
@@ -201,7 +201,7 @@ void find_runs(const GatherSection& section, TracePlaces& places) {
 }  // namespace
 
 TraceAxis trace_axis_named(const std::string& name) {
-  for (const auto& row : axis_names)
+  for (const auto& row : named_axes)
     if (name == row.name) return row.axis;
   throw Error("found the axis '" + name + "', expected one of " + joined(trace_axis_names()),
               ErrorKind::usage);
@@ -209,7 +209,7 @@ TraceAxis trace_axis_named(const std::string& name) {
 
 std::vector<std::string> trace_axis_names() {
   std::vector<std::string> names;
-  for (const auto& row : axis_names) names.emplace_back(row.name);
+  for (const auto& row : named_axes) names.emplace_back(row.name);
   return names;
 }
 

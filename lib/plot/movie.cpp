@@ -22,13 +22,13 @@ namespace slipwave::plot {
 namespace {
 
 /// What ffmpeg is told for an ending.
-struct Kind {
+struct MovieKind {
   const char* ending;
   std::vector<std::string> arguments;
 };
 
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {
+const std::vector<MovieKind>& kinds() {
+  static const std::vector<MovieKind> all = {
       // Players know 4:2:0 only, which wants even sizes.
       {".mp4",
        {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white", "-c:v", "libx264", "-crf", "18", "-pix_fmt",
@@ -37,7 +37,7 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-const Kind* kind_of(const std::string& path) {
+const MovieKind* kind_of(const std::string& path) {
   for (const auto& kind : kinds()) {
     const std::size_t length = std::strlen(kind.ending);
     if (path.size() > length && path.compare(path.size() - length, length, kind.ending) == 0) return &kind;
@@ -45,7 +45,8 @@ const Kind* kind_of(const std::string& path) {
   return nullptr;
 }
 
-std::vector<std::string> command(const Kind& kind, const Movie::Settings& settings, const std::string& to) {
+std::vector<std::string> command(const MovieKind& kind, const Movie::Settings& settings,
+                                 const std::string& to) {
   std::vector<std::string> words = {"ffmpeg",     "-nostdin",   "-loglevel",
                                     "error",      "-y",         "-f",
                                     "image2pipe", "-framerate", shown(settings.frames_per_s),

@@ -9,7 +9,7 @@
 namespace slipwave::plot {
 namespace {
 
-constexpr float none = std::numeric_limits<float>::quiet_NaN();
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
 template <class Value, class Add>
 void over_cells(const Value* line, const std::vector<Cells>& columns, const Add& add) {
@@ -153,7 +153,7 @@ void Reduction::add(float value) {
 
 float Reduction::value() const {
   if (take_ != Take::mean) return chosen_;
-  return count_ > 0 ? float(sum_ / double(count_)) : none;
+  return count_ > 0 ? float(sum_ / double(count_)) : no_value;
 }
 
 template <class Value>
@@ -170,7 +170,7 @@ Raster reduced(const std::function<const Value*(std::int64_t)>& row, const std::
       raster.values.insert(raster.values.end(), line.begin(), line.end());
       continue;
     }
-    std::fill(line.begin(), line.end(), none);
+    std::fill(line.begin(), line.end(), no_value);
     std::fill(sum.begin(), sum.end(), 0.0);
     std::fill(count.begin(), count.end(), 0);
     for (auto k = cells.first; k < cells.last; ++k) {

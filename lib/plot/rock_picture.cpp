@@ -18,7 +18,6 @@
 namespace slipwave::plot {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int points = 361;
 
 /// A value of each of P and S waves; S is left out in fluid.

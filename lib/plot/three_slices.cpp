@@ -9,7 +9,7 @@
 namespace slipwave::plot {
 namespace {
 
-constexpr double least_pt = 1.6 * points_per_cm, highest_pt = 17 * points_per_cm;
+constexpr double least_slice_pt = 1.6 * points_per_cm, highest_pt = 17 * points_per_cm;
 
 struct Size {
   double width = 0, height = 0;
@@ -38,8 +38,8 @@ Layout layout_at(const std::array<SlicePanel, 3>& slices, double points_a_metre,
   Layout layout;
   for (std::size_t n = 0; n < 3; ++n) {
     const auto& spec = slices[n].spec;
-    layout.data[n] = {std::max(least_pt, points_a_metre * extent(spec.x)),
-                      std::max(least_pt, points_a_metre * extent(spec.y))};
+    layout.data[n] = {std::max(least_slice_pt, points_a_metre * extent(spec.x)),
+                      std::max(least_slice_pt, points_a_metre * extent(spec.y))};
     layout.rooms[n] = room_size(spec, layout.data[n], page);
   }
   return layout;
@@ -92,7 +92,7 @@ Picture draw_three_slices(std::array<SlicePanel, 3> slices, const std::vector<Le
   const auto bar = slices[0].spec.bar;
   for (const std::size_t n : {1, 2}) slices[n].spec.bar.reset();
   // Data that share x stand above each other.
-  const Size usual{4 * least_pt, 2 * least_pt};
+  const Size usual{4 * least_slice_pt, 2 * least_slice_pt};
   for (const std::size_t n : {1, 2}) {
     const auto room = room_size(slices[n].spec, usual, page);
     const Panel panel(slices[n].spec, {0, 0, room.width, room.height}, page);

@@ -17,14 +17,14 @@
 namespace slipwave::plot {
 namespace {
 
-struct Destroy {
+struct Release {
   void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
   void operator()(PangoFontDescription* typeface) const { pango_font_description_free(typeface); }
   void operator()(PangoContext* context) const { g_object_unref(context); }
   void operator()(PangoLayout* layout) const { g_object_unref(layout); }
 };
 template <class Thing>
-using Owned = std::unique_ptr<Thing, Destroy>;
+using Owned = std::unique_ptr<Thing, Release>;
 
 /// The text as one line of shaped glyphs.
 Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold) {

@@ -11,9 +11,8 @@
 namespace slipwave {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 /// Directions of half a circle, and of half a sphere, among which backward group velocities are searched.
-constexpr int directions = 360, rings = 16, around = 64;
+constexpr int half_circle = 360, rings = 16, around = 64;
 /// How close to the best direction that search comes, radians: the largest share is flat there.
 constexpr double direction_tolerance = 1e-6;
 /// Less is rounding.
@@ -39,8 +38,8 @@ template <int D>
 std::vector<Point<D>> half_of_all_directions() {
   std::vector<Point<D>> all;
   if constexpr (D == 2) {
-    for (int n = 0; n < directions; ++n) {
-      const double angle = n * std::numbers::pi / directions;
+    for (int n = 0; n < half_circle; ++n) {
+      const double angle = n * std::numbers::pi / half_circle;
       all.push_back({std::sin(angle), std::cos(angle)});
     }
   } else {

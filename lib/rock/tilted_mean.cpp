@@ -13,8 +13,6 @@ namespace slipwave {
 namespace {
 
 constexpr std::array cut_properties = {Property::cut_epsilon, Property::cut_delta, Property::cut_dip};
-constexpr double degree = std::numbers::pi / 180;
-
 }  // namespace
 
 template <int D>

@@ -11,7 +11,6 @@
 namespace slipwave::segy {
 namespace {
 
-constexpr std::size_t header_bytes = text_bytes + BinaryLayout::size;
 constexpr std::int64_t most_extended = 32767;
 
 /// Major and minor revision. Words 0x0001 and 0x0010 are written for 1.0 too (0x0002, 0x0020 for 2.0), and a
@@ -103,7 +102,7 @@ void skip_to_first_trace(ByteSource& source, FileHeader& header) {
 }
 
 FileHeader read_segy(ByteSource& source, const ReadOptions& options) {
-  std::array<std::uint8_t, header_bytes> bytes{};
+  std::array<std::uint8_t, file_header_bytes> bytes{};
   const std::size_t got = source.read(bytes);
   if (got < bytes.size())
     throw Error(std::to_string(got) + " bytes, expected at least the 3600 of the SEG-Y headers");
@@ -143,14 +142,14 @@ FileHeader read_su(ByteSource& source, const ReadOptions& options) {
 }  // namespace
 
 FileHeader read_file_header(ByteSource& source, const ReadOptions& options) {
-  const auto first = source.peek(header_bytes);
+  const auto first = source.peek(file_header_bytes);
   if (first.empty()) throw Error("is empty, expected SEG-Y or Seismic Unix traces");
   if (options.su) return read_su(source, options);
   const FileKind kind = kind_of(first, source.size());
   if (kind == FileKind::su || (kind == FileKind::unknown && names_su(source.name())))
     return read_su(source, options);
   // a user who says byte order or format knows it is SEG-Y
-  if (kind == FileKind::unknown && first.size() >= header_bytes && !options.endian && !options.format)
+  if (kind == FileKind::unknown && first.size() >= file_header_bytes && !options.endian && !options.format)
     throw Error(
         "is neither SEG-Y nor Seismic Unix: no textual header, no sample format, no plausible trace header");
   return read_segy(source, options);

@@ -63,4 +63,7 @@ struct BinaryLayout {
   }();
 };
 
+/// The textual and the binary header.
+inline constexpr std::size_t file_header_bytes = BinaryLayout::first - 1 + BinaryLayout::size;
+
 }  // namespace slipwave::segy

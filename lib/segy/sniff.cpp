@@ -11,8 +11,6 @@
 namespace slipwave::segy {
 namespace {
 
-constexpr std::size_t header_bytes = text_bytes + BinaryLayout::size;
-
 std::optional<Endian> order_of_format(std::span<const std::uint8_t, BinaryLayout::size> binary) {
   for (const Endian endian : {Endian::big, Endian::little}) {
     const BinaryWords words(binary, endian);
@@ -96,7 +94,7 @@ Endian su_byte_order_of(std::span<const std::uint8_t, TraceLayout::size> header,
 }
 
 FileKind kind_of(std::span<const std::uint8_t> first, std::optional<std::uint64_t> size) {
-  const bool whole = first.size() >= header_bytes;
+  const bool whole = first.size() >= file_header_bytes;
   if (whole && looks_like_text(first.first(text_bytes))) {
     // text that continues where numbers should stand is somebody's notes
     constexpr std::size_t assigned = 60;  // of the binary header, in every revision

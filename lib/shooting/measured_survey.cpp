@@ -51,7 +51,7 @@ SearchLimits limits_of(const ShootingOptions& options) {
   return limits;
 }
 
-std::string percent(double share) { return shown(100 * share, 2) + " %"; }
+std::string short_percent(double share) { return shown(100 * share, 2) + " %"; }
 
 std::string joined_sizes(const MeasuredError& measured) {
   std::vector<std::string> sizes;
@@ -75,7 +75,7 @@ std::vector<std::string> remedies_of(const MeasuredError& measured) {
   std::vector<std::string> sentences;
   for (const auto& one : measured.sensitivities)
     if (one.change > least_share * measured.error.whole)
-      sentences.push_back(one.what + " (" + one.option + "): " + percent(one.change) + " in cells of " +
+      sentences.push_back(one.what + " (" + one.option + "): " + short_percent(one.change) + " in cells of " +
                           shown(one.spacing_m, 4) + " m");
   return sentences;
 }
@@ -215,8 +215,8 @@ void shoot_measured(const Scene<D>& scene, const ShootingOptions& options, const
   const auto& measured = reached.measured;
   say(measured, runs, runs.seconds(), messages);
   if (!reached.good)
-    messages.warn("wanted " + percent(*options.wanted_error) + ", reached " + percent(measured.error.whole) +
-                  ": " + reached.reason);
+    messages.warn("wanted " + short_percent(*options.wanted_error) + ", reached " +
+                  short_percent(measured.error.whole) + ": " + reached.reason);
   auto own = provenance;
   own.measured = line_of(measured, runs);
   if (errors) write_error_gather(measured, runs, *errors, own, messages);

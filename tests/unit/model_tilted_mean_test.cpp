@@ -13,7 +13,6 @@
 namespace slipwave {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr Material soft{2000, 1150, 2000}, hard{4000, 2300, 2300};
 
 Layer layer_of(double depth, const Material& rock, double dip_deg = 0) {

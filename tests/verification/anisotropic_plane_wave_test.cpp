@@ -10,8 +10,6 @@
 namespace slipwave::solver {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// One wave that a plane wave makes: its velocity and its slowness.
 template <int D>
 struct Arrival {

@@ -68,7 +68,7 @@ void for_products(const std::array<std::vector<CellWeight>, std::size_t(D)>& alo
 }
 
 template <int D>
-std::array<std::vector<CellWeight>, std::size_t(D)> weights_along(
+std::array<std::vector<CellWeight>, std::size_t(D)> gradient_weights_along(
     const std::array<AxisCells, std::size_t(D)>& usable, const std::array<double, std::size_t(D)>& at,
     int derivative) {
   std::array<std::vector<CellWeight>, std::size_t(D)> weights;
@@ -149,7 +149,7 @@ double VelocityGradient<D>::lacking(const std::vector<CellWeight>& weights, cons
 template <int D>
 void VelocityGradient<D>::add_product(const Cells& usable, const Place& at, int row, int along, double factor,
                                       Sum& sum) const {
-  for_products<D>(weights_along<D>(usable, at, along),
+  for_products<D>(gradient_weights_along<D>(usable, at, along),
                   [&](const Index<D>& cell, double weight) { sum.add(cell, row, factor * weight); });
 }
 
@@ -218,9 +218,9 @@ std::array<Point<D>, std::size_t(D)> VelocityGradient<D>::row_gradients(const Pl
   // Depths are differentiated as velocities are, so that linear fields have exact derivatives.
   Point<D> depth{};
   for (std::size_t axis = 0; axis < D; ++axis)
-    for_products<D>(weights_along<D>(inner_, at, int(axis)), [&](const Index<D>& cell, double weight) {
-      depth[axis] += weight * centre_depth(domain_, cell);
-    });
+    for_products<D>(
+        gradient_weights_along<D>(inner_, at, int(axis)),
+        [&](const Index<D>& cell, double weight) { depth[axis] += weight * centre_depth(domain_, cell); });
   if (!(depth[z] > 0)) depth[z] = 1;  // a single row
   gradients[z][z] = 1 / (h * depth[z]);
   for (std::size_t axis = 0; axis < z; ++axis) gradients[z][axis] = -depth[axis] / (h * depth[z]);
