@@ -413,12 +413,12 @@ TEST(BackwardGroupVelocity, InSpaceIsThatOfThePlanesOfSymmetry) {
   for (const int axis : {0, 1})
     EXPECT_NEAR(backward_group_velocity(upright_elasticity<3>(crossed), 2 * axis),
                 backward_group_velocity(upright_elasticity<2>(crossed), axis), 1e-9);
-  // Among the directions that are tried first is none of those at which this is largest.
+  // Directions of the plane in which it dips are among those in space; none of them is tried first.
   auto dipping = crossed;
   dipping.tilt = 17.3;
   for (const int axis : {0, 1})
-    EXPECT_NEAR(backward_group_velocity(elasticity_of<3>(dipping), 2 * axis),
-                backward_group_velocity(elasticity_of<2>(dipping), axis), 1e-9);
+    EXPECT_GT(backward_group_velocity(elasticity_of<3>(dipping), 2 * axis),
+              backward_group_velocity(elasticity_of<2>(dipping), axis) - 1e-9);
   EXPECT_EQ(backward_group_velocity(upright_elasticity<3>(rock), 1), 0);
 }
 
