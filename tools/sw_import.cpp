@@ -110,7 +110,7 @@ void check_stiffness(const Settings& settings) {
   given.check_kind();
   for (const Property property : all_properties())
     if (row_of(property).mean == Mean::elastic && property != Property::rho &&
-        !settings.file(property).empty() && !(turns_axes(property) && !given[Modulus::c15]))
+        !settings.file(property).empty() && !(turns_axes(property) && !given.are_of_any_rock()))
       throw Error("found both stiffnesses and --" + row_of(property).name + ", expected one of them",
                   ErrorKind::usage);
   if (!settings.vs_from.empty() || !settings.rho_from.empty())
@@ -341,21 +341,22 @@ void clear_void(Medium<D>& medium, const Settings& settings) {
 }
 
 /// Of stiffnesses and densities, files or numbers.
-Medium<2> read_stiffness(const Settings& settings, const Inputs& inputs, const Grid<2>& grid,
-                         const std::optional<Field<2>>& given_rho) {
-  std::array<std::optional<Field<2>>, modulus_count> fields;
+template <int D>
+Medium<D> read_stiffness(const Settings& settings, const Inputs& inputs, const Grid<D>& grid,
+                         const std::optional<Field<D>>& given_rho) {
+  std::array<std::optional<Field<D>>, modulus_count> fields;
   const double unit = units_of(settings).of_stiffness();
   for (std::size_t n = 0; n < modulus_count; ++n) {
     const auto& given = settings.stiffness_files[n];
     if (given.empty()) continue;
-    fields[n] = inputs.stiffness[n] ? field_of<2>(*inputs.stiffness[n])
-                                    : Field<2>(grid, float(parse_number(given) * unit));
+    fields[n] = inputs.stiffness[n] ? field_of<D>(*inputs.stiffness[n])
+                                    : Field<D>(grid, float(parse_number(given) * unit));
     if (fields[n]->grid() == grid) continue;
     throw Error(modulus_names()[n] + ": found " + shown(fields[n]->grid()) + ", expected " + shown(grid) +
                 " as of the first file");
   }
-  return medium_of_stiffness(
-      fields, given_rho ? *given_rho : Field<2>(grid, float(*constant_of(settings, Property::rho))));
+  return medium_of_stiffness<D>(
+      fields, given_rho ? *given_rho : Field<D>(grid, float(*constant_of(settings, Property::rho))));
 }
 
 template <int D>
@@ -372,11 +373,8 @@ Medium<D> read_medium(const Settings& settings, Inputs& inputs) {
     auto vp = taken(Property::vp), vs = taken(Property::vs), rho = taken(Property::rho);
     medium = medium_of<D>(std::move(*vp), std::move(vs), std::move(rho), settings.fluid_vp);
     clear_void(medium, settings);
-  } else if constexpr (D == 2) {
-    medium = read_stiffness(settings, inputs, grid, taken(Property::rho));
   } else {
-    throw Error("found volumes of stiffnesses, expected sections, or speeds: --vp F --vs F --rho F",
-                ErrorKind::usage);
+    medium = read_stiffness<D>(settings, inputs, grid, taken(Property::rho));
   }
   for (const Property property : all_properties()) {
     if (!row_of(property).if_absent || settings.file(property).empty()) continue;

@@ -130,7 +130,7 @@ class ColumnMean {
     };
     const auto at = [&](std::int64_t row) { return std::size_t(grid.flat({column, row})); };
     const auto source = at(row_at((depths[0] + depths[1]) / 2));
-    MaterialMean mean(material_of(from_, source));
+    MaterialMean mean(material_of(from_, source), from_.has(Property::c33));
     std::vector<ScalarMean> means;
     for (const Property property : scalars_)
       means.emplace_back(row_of(property).mean, from_[property][source]);

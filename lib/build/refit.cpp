@@ -179,7 +179,7 @@ class Refit {
   }
   /// The mean over parts of the kind of `source`, whose fractures the cell has.
   void put_cell(std::size_t cell, std::size_t source) {
-    MaterialMean mean(material_of(from_.medium, source));
+    MaterialMean mean(material_of(from_.medium, source), from_.medium.has(Property::c33));
     std::vector<ScalarMean> means;
     for (const Property property : scalars_)
       means.emplace_back(row_of(property).mean, from_.medium[property][source]);

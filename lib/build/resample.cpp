@@ -12,6 +12,7 @@
 #include "model/single_fracture.hpp"
 #include "model/split_faces.hpp"
 #include "rock/averaging.hpp"
+#include "rock/elasticity.hpp"
 #include "rock/tilted_mean.hpp"
 
 namespace slipwave {
@@ -88,6 +89,20 @@ float blend(const Field<D>& field, const std::vector<Corner>& corners, Mean rule
   double value = base;
   for (const auto& corner : corners) value += corner.weight * (double(field[corner.cell]) - base);
   return float(value);
+}
+
+/// Makes what was blended the rock of the constants that are linear between those of all corners, where one
+/// of them has elastic constants.
+template <int D>
+void blend_constants(const Medium<D>& medium, const std::vector<Corner>& corners, Medium<D>& to,
+                     std::size_t cell) {
+  if (std::none_of(corners.begin(), corners.end(),
+                   [&](const Corner& corner) { return has_constants(medium, corner.cell); }))
+    return;
+  Elasticity<3> stiffness;
+  for (const auto& [from, weight] : corners)
+    stiffness.voigt = sum_of(stiffness.voigt, elasticity_of<3>(material_of(medium, from)).voigt, weight);
+  put(to, cell, rock_of_constants(stiffness, double(to.rho[cell])));
 }
 
 /// Planes with friction on faces keep the prestress of both sides, which stands in the cells beside them
@@ -205,7 +220,7 @@ Model<D> regridded(const Model<D>& model, double spacing_m, Extent extent) {
     Grid<D> block;  // the old cells that the new one overlaps
     for (std::size_t axis = 0; axis < D; ++axis)
       block.shape[axis] = std::int64_t(overlaps[axis][std::size_t(at[axis])].lengths.size());
-    MaterialMean mean(material_of(model.medium, source));
+    MaterialMean mean(material_of(model.medium, source), model.medium.has(Property::c33));
     std::vector<ScalarMean> scalars;
     for (const Property property : by_themselves)
       scalars.emplace_back(row_of(property).mean, model.medium[property][source]);
@@ -242,6 +257,7 @@ Model<D> resampled(const Model<D>& model, double spacing_m, bool average, Extent
     const auto corners = corners_of<D>(model.medium, round, source);
     for (const Property property : properties)
       to.model.medium[property][cell] = blend(model.medium[property], corners, row_of(property).mean);
+    blend_constants(model.medium, corners, to.model.medium, cell);
   });
 }
 

@@ -182,7 +182,7 @@ void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& name
   given.check_kind();
   for (const auto& text : named)
     if (const auto other = find_property(text.substr(0, text.find('='))))
-      if (row_of(*other).mean == Mean::elastic && !(turns_axes(*other) && !given[Modulus::c15]))
+      if (row_of(*other).mean == Mean::elastic && !(turns_axes(*other) && !given.are_of_any_rock()))
         throw Error("found both stiffnesses and " + row_of(*other).name + ", expected one of them",
                     ErrorKind::usage);
   if (!(layer.material.rho > 0))
@@ -193,6 +193,9 @@ void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& name
   layer.material = material_of_given(given, layer.material.rho);
   const auto& of = layer.material;
   const auto add = [&](Property property, double value) { layer.others.emplace_back(property, value); };
+  for (std::size_t n = 0; of.constants && n < of.constants->size(); ++n)
+    if ((*of.constants)[n] != 0) add(constant_at(n), (*of.constants)[n]);
+  if (of.constants) return;
   if (of.is_anisotropic()) add(Property::epsilon, of.epsilon), add(Property::delta, of.delta);
   if (of.tilt != 0) add(Property::tilt, of.tilt);
   if (of.gamma != 0) add(Property::gamma, of.gamma);
@@ -417,6 +420,11 @@ Material Layer::at_depth(double below_top_m) const {
   }
   Material at = material;
   at.vp += gradient.vp * depth, at.vs += gradient.vs * depth, at.rho += gradient.rho * depth;
+  // Elastic constants stay what they are in rock whose density grows.
+  if (at.constants) {
+    const double slower = std::sqrt(material.rho / at.rho);
+    at.vp *= slower, at.vs *= slower;
+  }
   return at;
 }
 
@@ -533,7 +541,7 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
         const auto& tops = over.centres[std::size_t(n)];
         const std::size_t centre = pile.layers_at(tops, z, row);
         if (centre == 0) continue;  // void
-        MaterialMean mean(layers[centre - 1].at_depth(z - tops[centre - 1]));
+        MaterialMean mean(layers[centre - 1].at_depth(z - tops[centre - 1]), medium.has(Property::c33));
         std::vector<ScalarMean> means;
         for (const Property property : others)
           means.emplace_back(row_of(property).mean, float(layers[centre - 1].value(property)));

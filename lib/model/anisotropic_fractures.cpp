@@ -45,6 +45,7 @@ std::string fault_of(const FractureSet<D>& set, const Medium<D>& medium, std::si
 template <int D>
 std::string shown_anisotropy(const Medium<D>& medium, std::size_t cell) {
   const auto value = [&](Property property) { return shown(medium.value(property, cell), 6); };
+  if (has_constants(medium, cell)) return "(by elastic constants)";
   return "(epsilon " + value(Property::epsilon) + ", delta " + value(Property::delta) +
          (D == 3 ? ", gamma " + value(Property::gamma) : "") +
          (has_tilted_axis(medium, cell) ? ", tilt " + value(Property::tilt) : "") +

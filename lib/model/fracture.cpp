@@ -27,8 +27,21 @@ const std::vector<std::string> effect_names = {"slip",        "friction",   "vis
 std::vector<Property> properties_of(ModelEffect effect) {
   if (effect == ModelEffect::attenuation) return {Property::qp, Property::qs};
   if (effect != ModelEffect::anisotropy) return {};
-  return {Property::epsilon, Property::delta,  Property::tilt,   Property::gamma,   Property::epsilon1,
-          Property::delta1,  Property::delta3, Property::gamma2, Property::azimuth, Property::rotation};
+  auto properties = all_properties();
+  std::erase_if(properties, [](Property property) { return !tells_anisotropy(property); });
+  return properties;
+}
+
+/// Rock that has c33 and c55 alone of its elastic constants must be one.
+template <int D>
+void check_isotropic_rest(const Medium<D>& medium) {
+  for (std::size_t cell = 0; medium.has(Property::c33) && cell < medium.vp.size(); ++cell) {
+    const double most = double(medium.vp[cell]) * std::sqrt(0.75);
+    if (!has_constants(medium, cell) || double(medium.vs[cell]) < most) continue;
+    throw Error("without anisotropy the rock at " + place_of(medium.grid(), std::int64_t(cell)) +
+                " would have a vs of " + shown(medium.vs[cell]) +
+                " m/s, expected below vp sqrt(3)/2 = " + shown(most) + " m/s; leave its anisotropy in");
+  }
 }
 
 }  // namespace
@@ -231,6 +244,7 @@ std::vector<std::string> leave_out_inert(Model<D>& model, double resolution) {
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect) {
   if (effect == ModelEffect::prestress) model.prestress_pa.clear();
+  if (effect == ModelEffect::anisotropy) check_isotropic_rest(model.medium);
   for (const auto property : properties_of(effect))
     if (model.medium.has(property)) model.medium[property] = {};
   if (effect == ModelEffect::anisotropy) drop_tilted_means(model.medium);

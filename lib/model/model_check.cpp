@@ -96,6 +96,16 @@ void check_plausible(const Medium<D>& medium, std::size_t cell) {
         "is " + shown_float(rho) + " kg/m3, which no rock or fluid has; if it is meant so, use --allow-slow");
 }
 
+/// What does not go with elastic constants; any that make strain cost energy are rock.
+template <int D>
+void check_constants(const Medium<D>& medium, std::size_t cell) {
+  for (const auto property : {Property::qp, Property::qs})
+    if (medium.value(property, cell) < elastic_quality)
+      refuse(medium.grid(), cell, row_of(property).name,
+             "is " + shown_float(medium.value(property, cell)) +
+                 ", expected inf where rock has elastic constants: how it attenuates is not known");
+}
+
 template <int D>
 void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& limits) {
   const double vp = double(medium.vp[cell]), vs = double(medium.vs[cell]);
@@ -111,13 +121,15 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
            "is " + shown_float(double(medium[Property::qs][cell])) +
                ", expected inf in fluid, which carries no S waves");
   if (medium.has(Property::epsilon) || medium.has(Property::delta) || medium.has(Property::tilt) ||
-      medium.has(Property::gamma) || medium.has(Property::azimuth) || medium.has(Property::rotation))
+      medium.has(Property::gamma) || medium.has(Property::azimuth) || medium.has(Property::rotation) ||
+      medium.has(Property::c33))
     if (const auto fault = fault_of_anisotropy(material_of(medium, cell), D == 3 || limits.in_3d))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (medium.has(Property::cut_epsilon) || medium.has(Property::cut_delta))
     if (const auto fault = fault_of_tilted_mean(medium, cell))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (!limits.allow_slow) check_plausible(medium, cell);
+  if (has_constants(medium, cell)) return check_constants(medium, cell);
   const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };
   if (limits.allow_auxetic) {
     const double limit = vp * std::sqrt(0.75);

@@ -36,7 +36,7 @@ std::vector<double> mass_above(const Medium<D>& medium) {
 
 double k0_of_uniaxial_strain(const Material& of, int axis) {
   const auto c = upright_elasticity<3>(of);
-  if (axis == 1 && of.orthorhombic) return c(2, 3) / c(3, 3);
+  if (axis == 1 && (of.orthorhombic || of.constants)) return c(2, 3) / c(3, 3);
   if (of.is_anisotropic()) return c(1, 3) / c(3, 3);
   return 1 - 2 * (of.vs / of.vp) * (of.vs / of.vp);
 }

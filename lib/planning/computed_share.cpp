@@ -82,10 +82,9 @@ class Arrivals {
         slowest = std::min(slowest, 1 / double(medium.vp[cell]));
       } else {
         const auto material = material_of(medium, cell);
-        if (D == 3 && material.orthorhombic && !(material == last))
-          fastest_of_last = fastest_p_speed<3>(last = material);
-        slowest = std::min(
-            slowest, 1 / (D == 3 && material.orthorhombic ? fastest_of_last : fastest_p_speed<2>(material)));
+        const bool searched = (D == 3 && material.orthorhombic) || material.constants;
+        if (searched && !(material == last)) fastest_of_last = fastest_p_speed<D>(last = material);
+        slowest = std::min(slowest, 1 / (searched ? fastest_of_last : fastest_p_speed<2>(material)));
       }
       heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
       ++rows[number];

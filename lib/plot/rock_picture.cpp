@@ -132,7 +132,10 @@ void add_attenuation(const RockAt& rock, const Attenuation& attenuation, std::ve
 std::string words_of(const RockAt& rock) {
   const auto& of = rock.material;
   std::string words = rock.place + ": vp " + shown(of.vp, 4) + " m/s, vs " + shown(of.vs, 4) + " m/s";
-  if (of.is_anisotropic()) words += ", epsilon " + shown(of.epsilon, 3) + ", delta " + shown(of.delta, 3);
+  if (of.constants)
+    words += ", by its elastic constants";
+  else if (of.is_anisotropic())
+    words += ", epsilon " + shown(of.epsilon, 3) + ", delta " + shown(of.delta, 3);
   if (rock.in_3d && of.gamma != 0) words += ", gamma " + shown(of.gamma, 3);
   const std::pair<const char*, double> all[] = {
       {"tilt", of.tilt}, {"azimuth", of.azimuth}, {"rotation", of.rotation}};

@@ -3,9 +3,55 @@
 
 #include <cmath>
 
+#include "base/instantiate.hpp"
 #include "rock/anisotropy.hpp"
 
 namespace slipwave {
+namespace {
+
+constexpr std::array<std::size_t, 3> across_layers = {2, 3, 4}, along_layers = {0, 1, 5};
+
+SmallMatrix<3> block_of(const SmallMatrix<6>& c, const std::array<std::size_t, 3>& rows,
+                        const std::array<std::size_t, 3>& columns) {
+  SmallMatrix<3> block;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) block[i][k] = c[rows[i]][columns[k]];
+  return block;
+}
+
+void add_layer(SumsOfLayers& sums, Elasticity<3> c, double volume) {
+  // Of rock of the plane of x and z: what moves across that moves by itself.
+  if (c(4, 4) == 0) c.set(4, 4, c(5, 5));
+  const auto inverse = inverse_of(block_of(c.voigt, across_layers, across_layers));
+  const auto coupled = block_of(c.voigt, along_layers, across_layers);
+  const auto ratio = product_of(inverse, transposed(coupled));
+  sums.compliance = sum_of(sums.compliance, inverse, volume);
+  sums.ratio = sum_of(sums.ratio, ratio, volume);
+  sums.plate =
+      sum_of(sums.plate,
+             sum_of(block_of(c.voigt, along_layers, along_layers), product_of(coupled, ratio), -1.), volume);
+}
+
+}  // namespace
+
+template <int D>
+std::optional<ElasticConstants> constants_of(const Medium<D>& medium, std::size_t cell) {
+  ElasticConstants constants;
+  bool any = false;
+  for (std::size_t n = 0; n < constants.size(); ++n) {
+    constants[n] = medium.value(constant_at(n), cell);
+    any = any || constants[n] != 0;
+  }
+  if (!any || medium.is_void(cell)) return {};
+  return constants;
+}
+
+template <int D>
+void put_constants(Medium<D>& medium, std::size_t cell, const ElasticConstants& constants) {
+  for (std::size_t n = 0; n < constants.size(); ++n)
+    if (const auto property = constant_at(n); medium.has(property))
+      medium[property][cell] = float(constants[n]);
+}
 
 bool same_kind(const Material& a, const Material& b) {
   return (a.rho == 0) == (b.rho == 0) && (a.rho == 0 || (a.vs == 0) == (b.vs == 0));
@@ -20,6 +66,8 @@ bool MaterialMean::add(const Material& part, double volume) {
   if (part.rho > 0) compliance_p_ += volume / (part.rho * part.vp * part.vp);
   if (part.vs > 0) compliance_s_ += volume / (part.rho * part.vs * part.vs);
   if (part.vs > 0) {
+    constants_ = constants_ || part.constants;
+    if (sums_) add_layer(*sums_, elasticity_of<3>(part), volume);
     const auto c = upright_elasticity<3>(part);
     anisotropic_ = anisotropic_ || part.is_anisotropic_in_3d();
     if (part.is_anisotropic_in_3d() && volume > tilted_volume_) {
@@ -48,6 +96,7 @@ Material MaterialMean::mean() const {
 
 Material MaterialMean::of_layers() const {
   if (volume_ == 0 || uniform_ || compliance_s_ == 0) return mean();
+  if (constants_) return of_any_layers();
   const double c33 = volume_ / compliance_p_, ratio = ratio_ / volume_;
   const double ratio_y = ratio_y_ / volume_;
   auto mean = material_of(
@@ -60,6 +109,21 @@ Material MaterialMean::of_layers() const {
   return mean;
 }
 
+Material MaterialMean::of_any_layers() const {
+  const double share = 1 / volume_;
+  const auto stiffness = inverse_of(times(sums_->compliance, share)), ratio = times(sums_->ratio, share);
+  const auto mixed = product_of(stiffness, ratio),
+             level = sum_of(times(sums_->plate, share), product_of(transposed(ratio), mixed));
+  Elasticity<3> mean;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto n = across_layers[i], m = across_layers[k], t = along_layers[k];
+      mean.voigt[n][m] = stiffness[i][k], mean.voigt[along_layers[i]][t] = level[i][k];
+      mean.voigt[n][t] = mean.voigt[t][n] = mixed[i][k];
+    }
+  return rock_of_constants<3>(mean, mass_ * share);
+}
+
 void ScalarMean::add(float part, double volume) {
   volume_ += volume;
   sum_ += rule_ == Mean::harmonic ? volume / double(part) : volume * double(part);
@@ -69,5 +133,9 @@ double ScalarMean::mean() const {
   if (volume_ == 0) return centre_;
   return rule_ == Mean::harmonic ? volume_ / sum_ : sum_ / volume_;
 }
+
+SLIPWAVE_INSTANTIATE_D(FUNCTION, put_constants);
+template std::optional<ElasticConstants> constants_of(const Medium<2>&, std::size_t);
+template std::optional<ElasticConstants> constants_of(const Medium<3>&, std::size_t);
 
 }  // namespace slipwave

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 
+#include "base/small_matrix.hpp"
 #include "rock/medium.hpp"
 
 namespace slipwave {
@@ -13,6 +15,15 @@ struct Orthorhombic {
   double epsilon1 = 0, delta1 = 0, delta3 = 0, gamma2 = 0;
   bool operator==(const Orthorhombic&) const = default;
 };
+
+/// The elastic constants of a rock that no parameters describe, along the axes of the grid, Pa: the upper
+/// triangle of Voigt's matrix, row by row. Rock of 2-D may have those of the plane of x and z alone (c11,
+/// c13, c15, c33, c35, c55); the others are 0 then.
+using ElasticConstants = std::array<double, 21>;
+/// The place of c_mn among them, m not above n.
+constexpr std::size_t place_of_constant(int m, int n) { return std::size_t((m - 1) * (12 - m) / 2 + n - 1); }
+/// The property that holds one, by its place.
+constexpr Property constant_at(std::size_t place) { return Property(std::size_t(Property::c11) + place); }
 
 /// What an elastic point of a medium is made of. vs = 0 is fluid, rho = 0 is void, as in Medium.
 struct Material {
@@ -26,11 +37,25 @@ struct Material {
   // Of the axes in 3-D, degrees: where beds deepen, and their turn about the tilted axis (theory.md (O6)).
   double azimuth = 0, rotation = 0;
 
+  /// Say all but the density: vp and vs are sqrt(c33/rho) and sqrt(c55/rho) then, the parameters 0.
+  std::optional<ElasticConstants> constants = {};
+
   /// In 2-D and in 3-D.
-  bool is_anisotropic() const { return epsilon != 0 || delta != 0; }
+  bool is_anisotropic() const { return epsilon != 0 || delta != 0 || constants; }
   bool is_anisotropic_in_3d() const { return is_anisotropic() || gamma != 0 || orthorhombic; }
   bool operator==(const Material&) const = default;
 };
+
+/// Whether a cell has elastic constants.
+template <int D>
+bool has_constants(const Medium<D>& medium, std::size_t cell) {
+  return medium.has(Property::c33) && medium[Property::c33][cell] != 0 && !medium.is_void(cell);
+}
+/// Of a cell of a medium that has some, nothing where all are 0.
+template <int D>
+std::optional<ElasticConstants> constants_of(const Medium<D>& medium, std::size_t cell);
+template <int D>
+void put_constants(Medium<D>& medium, std::size_t cell, const ElasticConstants& constants);
 
 /// The material of a cell.
 template <int D>
@@ -44,6 +69,7 @@ Material material_of(const Medium<D>& medium, std::size_t cell) {
                  medium.value(Property::gamma, cell)};
   of.azimuth = medium.value(Property::azimuth, cell);
   of.rotation = medium.value(Property::rotation, cell);
+  if (medium.has(Property::c33)) of.constants = constants_of(medium, cell);
   if (!medium.has(Property::epsilon1)) return of;
   const Orthorhombic found = {medium.value(Property::epsilon1, cell), medium.value(Property::delta1, cell),
                               medium.value(Property::delta3, cell), medium.value(Property::gamma2, cell)};
@@ -63,6 +89,7 @@ void put(Medium<D>& medium, std::size_t cell, const Material& material) {
   if (medium.has(Property::gamma)) medium[Property::gamma][cell] = float(material.gamma);
   if (medium.has(Property::azimuth)) medium[Property::azimuth][cell] = float(material.azimuth);
   if (medium.has(Property::rotation)) medium[Property::rotation][cell] = float(material.rotation);
+  if (medium.has(Property::c33)) put_constants(medium, cell, material.constants.value_or(ElasticConstants{}));
   if (!medium.has(Property::epsilon1)) return;
   const auto of =
       material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
@@ -73,16 +100,28 @@ void put(Medium<D>& medium, std::size_t cell, const Material& material) {
 /// Both solid, both fluid or both void.
 bool same_kind(const Material& a, const Material& b);
 
+/// Sums of flat layers of rocks of any elastic constants, by volume (theory.md (O5a)), with the components N
+/// (zz, yz, xz) and T (xx, yy, xy) of stresses and strains.
+struct SumsOfLayers {
+  SmallMatrix<3> compliance{};  // NN^-1
+  SmallMatrix<3> ratio{};       // NN^-1 NT
+  SmallMatrix<3> plate{};       // TT - TN NN^-1 NT
+};
+
 /// The material that stands for a cell made of several (theory.md M1, M2): density is the arithmetic mean
 /// over the parts, lambda + 2 mu and mu are the harmonic ones, weighted by volume. Where a part is
 /// anisotropic the mean is that of flat layers of the parts (Backus 1962; theory.md V5), whose lambda + 2 mu
 /// along the vertical and mu are the same; where their axes are tilted, that is the mean about the axis of
-/// the largest anisotropic part. Only parts of the kind of the cell's centre count, so nothing is
+/// the largest anisotropic part. Where a part has elastic constants the layers lie level, and the mean has
+/// elastic constants, too (theory.md (O5a)). Only parts of the kind of the cell's centre count, so nothing is
 /// ever averaged across an interface of solid, fluid and void. Parts may come from anywhere: pieces cut off
 /// by planes, smaller cells, samples of a curved horizon.
 class MaterialMean {
  public:
-  explicit MaterialMean(const Material& centre) : centre_(centre) {}
+  /// `any_constants`: parts may have elastic constants.
+  explicit MaterialMean(const Material& centre, bool any_constants = false) : centre_(centre) {
+    if (any_constants) sums_.emplace();
+  }
   /// A part of the cell; volumes need not add up to anything. Says whether it counts.
   bool add(const Material& part, double volume);
   /// The mean; where all that counts is one material, exactly that. The centre's if nothing was added.
@@ -95,6 +134,8 @@ class MaterialMean {
   bool has_anisotropic_part() const { return anisotropic_; }
 
  private:
+  Material of_any_layers() const;
+
   Material centre_, first_;
   bool uniform_ = true;
   double volume_ = 0;                                      // of what counts
@@ -102,7 +143,8 @@ class MaterialMean {
   double ratio_ = 0, plate_ = 0;  // of anisotropic parts and others: volume times c13/c33, c11 - c13^2/c33
   // The same along y, of c12 in the plane of both, and volume times c66 and 1/c44.
   double ratio_y_ = 0, plate_y_ = 0, plate_xy_ = 0, level_ = 0, compliance_yz_ = 0;
-  bool anisotropic_ = false;
+  bool anisotropic_ = false, constants_ = false;
+  std::optional<SumsOfLayers> sums_;
   // Of the axes of the largest anisotropic part.
   double tilt_ = 0, azimuth_ = 0, rotation_ = 0, tilted_volume_ = 0;
 };

@@ -82,10 +82,12 @@ class FastestOfTilted {
  public:
   double operator()(const Medium<D>& medium, std::size_t cell, bool dips = false) {
     const auto material = material_of(medium, cell);
-    if (D == 2) return fastest_p_speed_at_most(material);
+    if (D == 2 && !material.constants) return fastest_p_speed_at_most(material);
     if (!(material == last_) || dips != dips_) {
       last_ = material, dips_ = dips;
-      speed_ = dips ? fastest_in_3d(material) : fastest_along_grid(material);
+      speed_ = D == 2 ? fastest_p_speed_at_most(material)
+               : dips ? fastest_in_3d(material)
+                      : fastest_along_grid(material);
     }
     return speed_;
   }

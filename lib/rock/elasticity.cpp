@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "base/instantiate.hpp"
 
@@ -35,7 +34,7 @@ std::size_t exchanged(std::size_t component) {
 }
 
 template <int D>
-std::vector<Point<D>> half_of_all_directions() {
+std::vector<Point<D>> make_half_of_all_directions() {
   std::vector<Point<D>> all;
   if constexpr (D == 2) {
     for (int n = 0; n < half_circle; ++n) {
@@ -62,6 +61,12 @@ Elasticity<D> Elasticity<D>::along_grid() const {
     for (std::size_t j = D; j < components; ++j)
       if (i != j) of.voigt[i][j] = of.voigt[j][i] = 0;
   return of;
+}
+
+template <int D>
+const std::vector<Point<D>>& half_of_all_directions() {
+  static const auto all = make_half_of_all_directions<D>();
+  return all;
 }
 
 template <>
@@ -110,8 +115,40 @@ Elasticity<3> orthorhombic(const std::array<double, 9>& moduli) {
             {0, 0, 0, 0, 0, c66}}}};
 }
 
+template <int D>
+Elasticity<D> elasticity_of_constants(const ElasticConstants& constants) {
+  Elasticity<D> of;
+  constexpr int step = D == 3 ? 1 : 2;
+  for (int m = 1; m <= 6; m += step)
+    for (int n = m; n <= 6; n += step) of.set(m, n, constants[place_of_constant(m, n)]);
+  return of;
+}
+
+template <int D>
+Material rock_of_constants(const Elasticity<D>& c, double rho) {
+  ElasticConstants constants{};
+  constexpr int step = D == 3 ? 1 : 2;
+  for (int m = 1; m <= 6; m += step)
+    for (int n = m; n <= 6; n += step) constants[place_of_constant(m, n)] = c(m, n);
+  return {.vp = std::sqrt(c(3, 3) / rho), .vs = std::sqrt(c(5, 5) / rho), .rho = rho, .constants = constants};
+}
+
+template <int D>
+std::optional<SoftConstant> soft_constant(const Elasticity<D>& elasticity) {
+  // Pivots of Gauss's elimination, as is_positive() asks for them.
+  auto m = elasticity.voigt;
+  for (std::size_t k = 0; k < m.size(); ++k) {
+    const double pivot = m[k][k], constant = elasticity.voigt[k][k];
+    if (!(pivot > 0)) return SoftConstant{D == 3 ? int(k) + 1 : 2 * int(k) + 1, constant - pivot};
+    for (std::size_t i = k + 1; i < m.size(); ++i)
+      for (std::size_t j = k + 1; j < m.size(); ++j) m[i][j] -= m[i][k] * m[k][j] / pivot;
+  }
+  return {};
+}
+
 template <>
 Elasticity<2> upright_elasticity<2>(const Material& material) {
+  if (material.constants) return elasticity_of_constants<2>(*material.constants);
   const double c33 = material.rho * material.vp * material.vp, c55 = material.rho * material.vs * material.vs;
   if (!material.is_anisotropic()) return vertical_symmetry(c33, c33 - 2 * c55, c33, c55);
   return vertical_symmetry(c33 * (1 + 2 * material.epsilon), mixed_stiffness(c33, c55, material.delta), c33,
@@ -120,6 +157,7 @@ Elasticity<2> upright_elasticity<2>(const Material& material) {
 
 template <>
 Elasticity<3> upright_elasticity<3>(const Material& material) {
+  if (material.constants) return elasticity_of_constants<3>(*material.constants);
   const auto plane = upright_elasticity<2>(material);
   const double c11 = plane(1, 1), c13 = plane(1, 3), c33 = plane(3, 3), c55 = plane(5, 5),
                c66 = c55 * (1 + 2 * material.gamma);
@@ -259,6 +297,10 @@ TensorValues<D> strain_of_stress(const Elasticity<D>& elasticity, const TensorVa
 
 SLIPWAVE_INSTANTIATE_D(TYPE, struct Elasticity);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, isotropic);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_of_constants);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, rock_of_constants);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, soft_constant);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, half_of_all_directions);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_of);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, turned);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, tractions);

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "base/small_matrix.hpp"
 #include "grid/grid.hpp"
@@ -57,8 +59,25 @@ Elasticity<2> vertical_symmetry(double c11, double c13, double c33, double c55);
 /// Rock whose axes of symmetry lie along the grid: c11, c22, c33, c44, c55, c66, c12, c13, c23.
 Elasticity<3> orthorhombic(const std::array<double, 9>& moduli);
 
+/// The elasticity of elastic constants; in 2-D that of the plane of x and z.
+template <int D>
+Elasticity<D> elasticity_of_constants(const ElasticConstants& constants);
+/// The rock of any stiffness along the axes of the grid.
+template <int D>
+Material rock_of_constants(const Elasticity<D>& elasticity, double rho);
+
+/// A constant on the diagonal of a stiffness, by Voigt's number, and what it must be above, Pa.
+struct SoftConstant {
+  int number;
+  double least;
+};
+/// The first constant that is too small beside those before it, so that some strain costs no energy; nothing
+/// where all strains do.
+template <int D>
+std::optional<SoftConstant> soft_constant(const Elasticity<D>& elasticity);
+
 /// A rock about its own axes, from speeds and the parameters of Thomsen and Tsvankin (theory.md (V2), (O2)).
-/// NaN where these leave none.
+/// NaN where these leave none. Elastic constants are along the axes of the grid.
 template <int D>
 Elasticity<D> upright_elasticity(const Material& material);
 template <>
@@ -93,6 +112,9 @@ Eigensystem<std::size_t(D)> waves_along(const Elasticity<D>& elasticity, const P
 /// Their speeds, m/s, from the fastest to the slowest.
 template <int D>
 Point<D> phase_speeds(const Elasticity<D>& elasticity, double rho, const Point<D>& direction);
+/// Unit vectors to half of all directions, the others of which are their opposites.
+template <int D>
+const std::vector<Point<D>>& half_of_all_directions();
 /// Backward group velocity along an axis, counted from 0: the largest share of its phase speed at which
 /// energy moves back along the axis while the front of the wave moves on along it, -k_a g_a/omega (theory.md
 /// (V6)); 0 where none does, as in any isotropic rock.

@@ -74,9 +74,21 @@ PropertyRow of_cut_cells(PropertyRow row) {
   return row;
 }
 
-}  // namespace
+/// Returns the row of an elastic constant, by Voigt's numbers.
+PropertyRow constant(int m, int n) {
+  const auto name = "c" + std::to_string(m) + std::to_string(n);
+  return {.name = name,
+          .long_name = "elastic constant " + name + ", 0 where the other properties say what the rock is",
+          .help = "",
+          .units = "Pa",
+          .shown_unit = "Pa",
+          .least = -PropertyRow::infinite,
+          .mean = Mean::elastic,
+          .if_absent = 0,
+          .computed = true};
+}
 
-std::vector<PropertyRow> property_rows() {
+std::vector<PropertyRow> rows_but_constants() {
   return {{.name = "vp",
            .long_name = "P-wave speed",
            .help = "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE), or a number",
@@ -124,6 +136,15 @@ std::vector<PropertyRow> property_rows() {
           of_cut_cells(thomsen("cut_epsilon", "normal of the interface that cuts the cell, 0 = none")),
           of_cut_cells(thomsen("cut_delta", "normal of the interface that cuts the cell, 0 = none")),
           of_cut_cells(dip("cut_dip", "interface that cuts the cell", ""))};
+}
+
+}  // namespace
+
+std::vector<PropertyRow> property_rows() {
+  auto rows = rows_but_constants();
+  for (int m = 1; m <= 6; ++m)
+    for (int n = m; n <= 6; ++n) rows.push_back(constant(m, n));
+  return rows;
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

@@ -53,7 +53,12 @@ enum class Property : std::size_t {
   rotation,
   cut_epsilon,
   cut_delta,
-  cut_dip
+  cut_dip,
+  // Elastic constants: the upper triangle of Voigt's matrix, row by row.
+  c11,
+  c22 = c11 + 6,
+  c33 = c11 + 11,
+  c66 = c11 + 20
 };
 
 /// Rows that every model has. They are the first of the table; those after them say what stands for them
@@ -72,6 +77,13 @@ const PropertyRow& row_of(Property property);
 /// Whether it is an angle of the axes of rock, which may be given beside stiffnesses along them.
 constexpr bool turns_axes(Property property) {
   return property == Property::tilt || property == Property::azimuth || property == Property::rotation;
+}
+constexpr bool is_elastic_constant(Property property) {
+  return property >= Property::c11 && property <= Property::c66;
+}
+/// Whether it says how rock differs from isotropic rock; cells that interfaces cut have others.
+constexpr bool tells_anisotropy(Property property) {
+  return (property >= Property::epsilon && property <= Property::rotation) || is_elastic_constant(property);
 }
 /// Nothing where no row has this name.
 std::optional<Property> find_property(const std::string& name);

@@ -16,6 +16,7 @@ std::string expected_values(const PropertyRow& row) {
   const std::string finite = "a finite number";
   if (std::isinf(row.largest) && row.if_absent == PropertyRow::infinite)
     return "a number of at least " + shown(row.least) + ", or inf";
+  if (std::isinf(row.least) && std::isinf(row.largest)) return finite;
   if (std::isinf(row.largest))
     return finite + (row.least == 0 ? " not below zero" : " of at least " + shown(row.least));
   return finite + " from " + shown(row.least) + " to " + shown(row.largest);

@@ -119,7 +119,7 @@ SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const 
 }
 
 std::vector<LayerWave<3>> layer_waves(const Material& rock, const std::array<double, 2>& along, bool down) {
-  const bool level = rock.tilt == 0 && !rock.orthorhombic;
+  const bool level = rock.tilt == 0 && !rock.orthorhombic && !rock.constants;
   return level ? waves_of_level_beds(rock, along, down) : waves_of_any(rock, along, down);
 }
 

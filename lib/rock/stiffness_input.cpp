@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/instantiate.hpp"
 #include "rock/anisotropy.hpp"
 
 namespace slipwave {
@@ -15,6 +16,9 @@ namespace {
 constexpr double rounding = 1e-5, least_parameter = 1e-6;
 constexpr std::array always = {Modulus::c11, Modulus::c13, Modulus::c33, Modulus::c55};
 constexpr std::array of_orthorhombic = {Modulus::c22, Modulus::c44, Modulus::c12, Modulus::c23};
+constexpr std::array of_tilted = {Modulus::c15, Modulus::c35};
+constexpr std::array of_space = {Modulus::c14, Modulus::c16, Modulus::c24, Modulus::c25, Modulus::c26,
+                                 Modulus::c34, Modulus::c36, Modulus::c45, Modulus::c46, Modulus::c56};
 
 const std::string& name_of(Modulus of) { return modulus_names()[std::size_t(of)]; }
 
@@ -56,7 +60,7 @@ Elasticity<3> completed(const GivenStiffness& given, const Elasticity<2>& plane)
 Elasticity<2> in_plane(const GivenStiffness& given) {
   auto c = vertical_symmetry(*given[Modulus::c11], *given[Modulus::c13], *given[Modulus::c33],
                              *given[Modulus::c55]);
-  if (given[Modulus::c15]) c.set(1, 5, *given[Modulus::c15]), c.set(3, 5, *given[Modulus::c35]);
+  c.set(1, 5, given[Modulus::c15].value_or(0)), c.set(3, 5, given[Modulus::c35].value_or(0));
   return c;
 }
 
@@ -66,7 +70,21 @@ AxesOfPlane plane_of(const GivenStiffness& given) {
   return tilted ? axes_of_plane(c) : AxesOfPlane{c.along_grid()};
 }
 
-std::string gpa(double pascal) { return shown(pascal / 1e9, 6) + " GPa"; }
+/// All of them as elastic constants; those that are not given are 0.
+ElasticConstants constants_of(const GivenStiffness& given) {
+  ElasticConstants all{};
+  for (std::size_t n = 0; n < modulus_count; ++n) {
+    const auto& name = modulus_names()[n];
+    all[place_of_constant(name[1] - '0', name[2] - '0')] = given.moduli[n].value_or(0);
+  }
+  return all;
+}
+
+bool is_of_space(const GivenStiffness& given) { return given[Modulus::c22].has_value(); }
+bool are_zero(const GivenStiffness& given, const auto& moduli, double least) {
+  return std::all_of(moduli.begin(), moduli.end(),
+                     [&](Modulus of) { return std::abs(given[of].value_or(0)) <= least; });
+}
 StiffnessFault fault(Modulus of, double value, const std::string& rest) {
   return {of, "is " + gpa(value) + ", expected " + rest};
 }
@@ -88,8 +106,16 @@ std::optional<StiffnessFault> fault_of_fluid(const GivenStiffness& given, const 
   for (const auto& [modulus, value] : {std::pair{Modulus::c11, plane(1, 1)}, {Modulus::c13, plane(1, 3)}})
     if (std::abs(value - plane(3, 3)) > 1e-3 * plane(3, 3))
       return fault(modulus, value, "c33 = " + gpa(plane(3, 3)) + " in fluid, where c55 is 0");
+  const auto none = [&](Modulus modulus) -> std::optional<StiffnessFault> {
+    if (given[modulus].value_or(0) == 0) return {};
+    return fault(modulus, *given[modulus], "0 in fluid, where c55 is 0");
+  };
   for (const auto modulus : {Modulus::c66, Modulus::c44})
-    if (given[modulus].value_or(0) != 0) return fault(modulus, *given[modulus], "0 in fluid, where c55 is 0");
+    if (auto found = none(modulus)) return found;
+  for (const auto modulus : of_tilted)
+    if (auto found = none(modulus)) return found;
+  for (const auto modulus : of_space)
+    if (auto found = none(modulus)) return found;
   return {};
 }
 
@@ -123,22 +149,46 @@ std::optional<StiffnessFault> fault_in_3d(const Elasticity<3>& c, bool alike) {
                "would give energy");
 }
 
+/// Whether speeds and parameters, and in a plane a tilt, give moduli that may be those of any rock.
+bool have_parameters(const GivenStiffness& given) {
+  const double least = rounding * *given[Modulus::c33];
+  if (is_of_space(given) && !(are_zero(given, of_tilted, least) && are_zero(given, of_space, least)))
+    return false;
+  const auto [plane, dip] = plane_of(given);
+  if (fault_of_plane(plane)) return false;
+  if (is_of_space(given)) return !fault_in_3d(completed(given, plane), false);
+  return !differ(in_plane(given), turned<2>(plane, axes_of<2>({.tilt = dip * 180 / std::numbers::pi})));
+}
+
+template <int D>
+std::optional<StiffnessFault> fault_of_any_rock(const GivenStiffness& given) {
+  const auto soft = soft_constant<D>(elasticity_of_constants<D>(constants_of(given)));
+  if (!soft) return {};
+  const auto& names = modulus_names();
+  const auto digit = std::to_string(soft->number);
+  const auto of = Modulus(std::find(names.begin(), names.end(), "c" + digit + digit) - names.begin());
+  return fault(of, *given[of], above_soft_constant(*soft));
+}
+
 }  // namespace
 
 const std::array<std::string, modulus_count>& modulus_names() {
-  static const std::array<std::string, modulus_count> names = {"c11", "c13", "c33", "c55", "c15", "c35",
-                                                               "c66", "c22", "c44", "c12", "c23"};
+  static const std::array<std::string, modulus_count> names = {
+      "c11", "c13", "c33", "c55", "c15", "c35", "c66", "c22", "c44", "c12", "c23",
+      "c14", "c16", "c24", "c25", "c26", "c34", "c36", "c45", "c46", "c56"};
   return names;
 }
 
 PropertyRow row_of(Modulus modulus) {
-  const bool tilted = modulus == Modulus::c15 || modulus == Modulus::c35;
-  const bool in_plane = std::find(always.begin(), always.end(), modulus) != always.end();
+  const auto among = [&](const auto& some) {
+    return std::find(some.begin(), some.end(), modulus) != some.end();
+  };
   return {.name = name_of(modulus),
           .long_name = "stiffness " + name_of(modulus),
           .help = "stiffness " + name_of(modulus) + ", Pa" +
-                  (in_plane                  ? "; with the others of c11, c13, c33, c55 instead of vp and vs"
-                   : tilted                  ? ", of axes that are tilted in the plane of x and z"
+                  (among(always)             ? "; with the others of c11, c13, c33, c55 instead of vp and vs"
+                   : among(of_tilted)        ? ", of any rock in the plane of x and z"
+                   : among(of_space)         ? ", of any rock in 3-D, 0 by default"
                    : modulus == Modulus::c66 ? ", in 3-D"
                                              : ", of orthorhombic rock") +
                   ", a file or a number",
@@ -163,17 +213,24 @@ void GivenStiffness::check_kind() const {
   };
   const auto given = [&](Modulus modulus) { return all[modulus].has_value(); };
   with(always, "stiffnesses are");
-  if (std::any_of(of_orthorhombic.begin(), of_orthorhombic.end(), given)) {
-    with(of_orthorhombic, "orthorhombic rock has");
-    with(std::array{Modulus::c66}, "orthorhombic rock has c11 to c66, c12, c13, c23;");
+  const bool of_any_space = std::any_of(of_space.begin(), of_space.end(), given);
+  if (of_any_space || std::any_of(of_orthorhombic.begin(), of_orthorhombic.end(), given)) {
+    const std::string rock = of_any_space ? "rock with c14 to c56" : "orthorhombic rock";
+    with(of_orthorhombic, rock + " has");
+    with(std::array{Modulus::c66}, rock + " has c11 to c66, c12, c13, c23;");
+    return;
   }
   if (!given(Modulus::c15) && !given(Modulus::c35)) return;
-  with(std::array{Modulus::c15, Modulus::c35}, "tilted axes have");
-  for (const auto modulus : {Modulus::c66, Modulus::c22})
-    if (given(modulus))
-      throw Error("found c15 and c35 with " + name_of(modulus) +
-                      ", expected one of both: in 3-D tilt, azimuth and rotation turn the axes",
-                  ErrorKind::usage);
+  with(of_tilted, "tilted axes have");
+  if (given(Modulus::c66))
+    throw Error("found c15 and c35 with c66 alone, expected c22, c44, c12 and c23 of rock in 3-D, too",
+                ErrorKind::usage);
+}
+
+bool GivenStiffness::are_of_any_rock() const {
+  const auto given = [&](Modulus modulus) { return (*this)[modulus].has_value(); };
+  return std::any_of(of_tilted.begin(), of_tilted.end(), given) ||
+         std::any_of(of_space.begin(), of_space.end(), given);
 }
 
 std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {
@@ -187,14 +244,9 @@ std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {
   if (!(c55 >= 0)) return fault(Modulus::c55, c55, "at least 0");
   const auto [plane, dip] = plane_of(given);
   if (c55 == 0) return fault_of_fluid(given, plane);
-  if (given[Modulus::c15]) {
-    const double c15 = *given[Modulus::c15];
-    const double tilt = dip * 180 / std::numbers::pi;
-    const auto found = turned(plane, axes_of<2>({.tilt = tilt}));
-    if (differ(in_plane(given), found))
-      return fault(Modulus::c15, c15,
-                   gpa(found(1, 5)) + " of the axes of symmetry that are nearest, tilted by " +
-                       shown(tilt, 4) + " degrees: rock of two axes in the plane is swept, none without");
+  if (given.are_of_any_rock()) {
+    if (have_parameters(given)) return {};
+    return is_of_space(given) ? fault_of_any_rock<3>(given) : fault_of_any_rock<2>(given);
   }
   if (auto of_plane = fault_of_plane(plane)) return of_plane;
   if (!given[Modulus::c66]) return {};
@@ -203,7 +255,12 @@ std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {
 
 Material material_of_given(const GivenStiffness& given, double rho) {
   const auto [plane, dip] = plane_of(given);
-  if (plane(5, 5) == 0) return {std::sqrt(plane(3, 3) / rho), 0, rho};
+  if (*given[Modulus::c55] == 0) return {std::sqrt(plane(3, 3) / rho), 0, rho};
+  if (given.are_of_any_rock() && !have_parameters(given)) {
+    const auto constants = constants_of(given);
+    return is_of_space(given) ? rock_of_constants(elasticity_of_constants<3>(constants), rho)
+                              : rock_of_constants(elasticity_of_constants<2>(constants), rho);
+  }
   auto material = material_of(completed(given, plane), rho);
   const auto tidy = [](double& parameter) {
     if (std::abs(parameter) < least_parameter) parameter = 0;
@@ -218,15 +275,18 @@ Material material_of_given(const GivenStiffness& given, double rho) {
   return material;
 }
 
-Medium<2> medium_of_stiffness(const std::array<std::optional<Field<2>>, modulus_count>& given,
-                              const Field<2>& rho) {
-  Medium<2> medium(rho.grid());
+template <int D>
+Medium<D> medium_of_stiffness(const std::array<std::optional<Field<D>>, modulus_count>& given,
+                              const Field<D>& rho) {
+  Medium<D> medium(rho.grid());
   const auto has = [&](Modulus modulus) { return given[std::size_t(modulus)].has_value(); };
-  medium[Property::epsilon] = Field<2>(rho.grid());
-  if (has(Modulus::c66)) medium[Property::gamma] = Field<2>(rho.grid());
-  if (has(Modulus::c22)) medium[Property::epsilon1] = Field<2>(rho.grid());
-  if (has(Modulus::c15)) medium[Property::tilt] = Field<2>(rho.grid());
+  const auto add = [&](Property property) { medium[property] = Field<D>(rho.grid()); };
+  add(Property::epsilon);
+  if (has(Modulus::c66)) add(Property::gamma);
+  if (has(Modulus::c22)) add(Property::epsilon1);
+  if (has(Modulus::c15) && !has(Modulus::c22)) add(Property::tilt);
   complete_anisotropy(medium);
+  bool any_parameters = false;
   for (std::size_t cell = 0; cell < rho.size(); ++cell) {
     if (rho[cell] == 0) continue;
     const auto refuse = [&](const std::string& name, const std::string& text) {
@@ -238,9 +298,21 @@ Medium<2> medium_of_stiffness(const std::array<std::optional<Field<2>>, modulus_
     for (std::size_t n = 0; n < modulus_count; ++n)
       if (given[n]) of_cell.moduli[n] = double((*given[n])[cell]);
     if (const auto found = fault_of_stiffness(of_cell)) refuse(name_of(found->of), found->text);
-    put(medium, cell, material_of_given(of_cell, double(rho[cell])));
+    const auto material = material_of_given(of_cell, double(rho[cell]));
+    if (material.constants && !medium.has(Property::c33)) {
+      add(has(Modulus::c22) ? Property::c22 : Property::c33);
+      complete_anisotropy(medium);
+    }
+    any_parameters = any_parameters || (material.is_anisotropic_in_3d() && !material.constants);
+    put(medium, cell, material);
   }
+  for (const auto property : medium.properties())
+    if (medium.has(Property::c33) && !any_parameters && tells_anisotropy(property) &&
+        !is_elastic_constant(property))
+      medium[property] = {};
   return medium;
 }
+
+SLIPWAVE_INSTANTIATE_D(FUNCTION, medium_of_stiffness);
 
 }  // namespace slipwave

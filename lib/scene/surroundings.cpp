@@ -134,8 +134,9 @@ std::string surroundings(const Scene<D>& scene, std::size_t shot, const Index<D>
     nearby.add("the source",
                cells_apart<D>(cell_of(scene.subdomain.whole(grid), source.position_m), of_whole));
   const std::string anisotropy =
-      !is_anisotropic(medium, inside)
-          ? ""
+      !is_anisotropic(medium, inside) ? ""
+      : has_constants(medium, inside)
+          ? " and other elastic constants"
           : " epsilon=" + shown(medium.value(Property::epsilon, inside)) +
                 " delta=" + shown(medium.value(Property::delta, inside)) +
                 (D == 3 ? " gamma=" + shown(medium.value(Property::gamma, inside)) : "") +

@@ -76,7 +76,12 @@ void transpose_rocks(Medium<2>& column) {
   for (std::size_t cell = 0; cell < column.vp.size(); ++cell) {
     auto rock = material_of(column, cell);
     if (!rock.is_anisotropic()) continue;
-    if (rock.tilt != 0) {
+    if (rock.constants) {
+      auto c = upright_elasticity<2>(rock);
+      std::swap(c.voigt[0], c.voigt[1]);
+      for (auto& row : c.voigt) std::swap(row[0], row[1]);
+      rock = rock_of_constants(c, rock.rho);
+    } else if (rock.tilt != 0) {
       rock.tilt = rock.tilt > 0 ? 90 - rock.tilt : -90 - rock.tilt;
     } else {
       const auto c = upright_elasticity<2>(rock);
@@ -103,6 +108,8 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
     column.vp[cell] = float(column.vp[cell] / height);
     column.vs[cell] = float(column.vs[cell] / height);
     column.rho[cell] = float(column.rho[cell] * height);
+    for (const auto property : column.properties())
+      if (is_elastic_constant(property)) column[property][cell] = float(column[property][cell] / height);
   }
   // Interfaces do not dip in a column.
   drop_tilted_means(column);

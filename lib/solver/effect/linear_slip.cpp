@@ -105,7 +105,7 @@ bool may_lie_askew(const FractureSet<D>& set, const Domain<D>& domain, const Sce
            any([](const auto& system) { return is_oblique<D>(system.normal); });
   // All processes have the same properties, whatever their values.
   const auto has = [&](Property of) { return scene.model.medium.has(of); };
-  return has(Property::epsilon1) || has(Property::tilt) || has(Property::azimuth) ||
+  return has(Property::epsilon1) || has(Property::tilt) || has(Property::azimuth) || has(Property::c33) ||
          any([](const auto& system) { return !is_level<D>(system.normal); });
 }
 

@@ -30,7 +30,7 @@ MotionAlongX::MotionAlongX(const Material& rock) : vp(rock.vp), vs(rock.vs) {
     const auto c = elasticity_of<2>(rock);
     const auto waves = slipwave::waves_along<2>(c, {1, 0});
     vp = std::sqrt(waves.values[0] / rock.rho), vs = std::sqrt(waves.values[1] / rock.rho);
-    cosine = waves.vectors[0][0], sine = rock.tilt == 0 ? 0 : waves.vectors[0][1];
+    cosine = waves.vectors[0][0], sine = rock.tilt == 0 && !rock.constants ? 0 : waves.vectors[0][1];
     passive = (c(1, 3) * cosine + c(3, 5) * sine) / (rock.rho * vp * vp);
     passive_s = (c(3, 5) * cosine - c(1, 3) * sine) / (rock.rho * vs * vs);
   }

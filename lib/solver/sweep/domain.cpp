@@ -222,9 +222,11 @@ class AnisotropicMedia {
   std::int32_t number(const Material& material, bool mean, bool curvilinear) {
     const auto extra =
         material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
-    const Key key{material.vp,    material.vs,   material.rho,     material.epsilon,  material.delta,
-                  material.gamma, material.tilt, material.azimuth, material.rotation, extra.epsilon1,
-                  extra.delta1,   extra.delta3,  extra.gamma2,     double(mean),      double(curvilinear)};
+    const auto constants = material.constants.value_or(ElasticConstants{});
+    Key key{material.vp,    material.vs,   material.rho,     material.epsilon,  material.delta,
+            material.gamma, material.tilt, material.azimuth, material.rotation, extra.epsilon1,
+            extra.delta1,   extra.delta3,  extra.gamma2,     double(mean),      double(curvilinear)};
+    std::copy_backward(constants.begin(), constants.end(), key.end());
     if (key == last_ && !media_.empty()) return number_;
     last_ = key;
     const auto [found, is_new] = numbers_.try_emplace(key, std::int32_t(media_.size()));
@@ -244,7 +246,7 @@ class AnisotropicMedia {
   std::vector<AnisotropicMedium<D>> take() { return std::move(media_); }
 
  private:
-  using Key = std::array<double, 15>;
+  using Key = std::array<double, 15 + std::tuple_size_v<ElasticConstants>>;
   std::map<Key, std::int32_t> numbers_;
   std::vector<AnisotropicMedium<D>> media_;
   Key last_{};
