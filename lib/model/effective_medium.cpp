@@ -72,7 +72,7 @@ FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& 
     const auto rock = material_of(medium, cell);
     if (rock.constants)
       refuse("the rock at " + place_of(model.grid(), std::int64_t(cell)) +
-             " has elastic constants, expected speeds; in such rock planes are springs");
+             " has elastic constants, expected speeds and parameters; leave --effective out");
     const double tilt = tilt_of(rock, systems);
     const auto of_beds = seen_from(tilt, systems);
     for (std::size_t n = 0; n < systems.size(); ++n)

@@ -14,7 +14,7 @@ namespace {
 
 /// Directions from the vertical to the horizontal among which the largest and smallest are searched.
 constexpr int directions = 180;
-/// Those that rock of the plane of x and z has.
+/// Places of the constants that rock of the plane of x and z has.
 constexpr std::array plane_constants = {
     place_of_constant(1, 1), place_of_constant(1, 3), place_of_constant(1, 5),
     place_of_constant(3, 3), place_of_constant(3, 5), place_of_constant(5, 5),

@@ -51,7 +51,7 @@ template <int D>
 bool has_constants(const Medium<D>& medium, std::size_t cell) {
   return medium.has(Property::c33) && medium[Property::c33][cell] != 0 && !medium.is_void(cell);
 }
-/// Of a cell of a medium that has some, nothing where all are 0.
+/// Returns those of a cell of a medium that has some; nothing where all are 0, and in void.
 template <int D>
 std::optional<ElasticConstants> constants_of(const Medium<D>& medium, std::size_t cell);
 template <int D>

@@ -221,7 +221,7 @@ void GivenStiffness::check_kind() const {
     return;
   }
   if (!given(Modulus::c15) && !given(Modulus::c35)) return;
-  with(of_tilted, "tilted axes have");
+  with(of_tilted, "rock of a plane has");
   if (given(Modulus::c66))
     throw Error("found c15 and c35 with c66 alone, expected c22, c44, c12 and c23 of rock in 3-D, too",
                 ErrorKind::usage);

@@ -206,9 +206,12 @@ TEST_F(Temperature, CostsNothingWhereAModelLacksIt) {
 
 TEST(PropertyTable, BeginsWithWhatEveryModelHas) {
   EXPECT_EQ(property_names(),
-            (std::vector<std::string>{"vp", "vs", "rho", "qp", "qs", "epsilon", "delta", "gamma", "epsilon1",
-                                      "delta1", "delta3", "gamma2", "tilt", "azimuth", "rotation",
-                                      "cut_epsilon", "cut_delta", "cut_dip", "temperature"}));
+            (std::vector<std::string>{
+                "vp",        "vs",      "rho",    "qp",     "qs",   "epsilon", "delta",    "gamma",
+                "epsilon1",  "delta1",  "delta3", "gamma2", "tilt", "azimuth", "rotation", "cut_epsilon",
+                "cut_delta", "cut_dip", "c11",    "c12",    "c13",  "c14",     "c15",      "c16",
+                "c22",       "c23",     "c24",    "c25",    "c26",  "c33",     "c34",      "c35",
+                "c36",       "c44",     "c45",    "c46",    "c55",  "c56",     "c66",      "temperature"}));
   for (const Property property : all_properties()) {
     const auto& row = row_of(property);
     EXPECT_EQ(row.if_absent.has_value(), std::size_t(property) >= required_properties) << row.name;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "any_stiffness.hpp"
 #include "fitted_lab.hpp"
 #include "media.hpp"
 
@@ -123,6 +124,16 @@ TEST_P(FittedAnisotropyInSpace, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
   for (const int order : {5, 7}) {
     expect_no_growth<float>(medium(5, 5, true), all_edges(EdgeLaw::free), {order}, steps_, 0);
     expect_no_growth<double>(medium(6, 5, true), all_edges(EdgeLaw::free), {order, 4, 2}, steps_ / 2, 0);
+  }
+}
+
+// Proves (F16).
+TEST_P(FittedAnisotropyInSpace, OfAnyStiffnessNeverAddsEnergy) {
+  for (const auto& [block, order] : {std::pair{1, 5}, {5, 7}, {100, 5}}) {
+    auto of_any = medium(1, 1, false);
+    put_any_stiffness(of_any, unsigned(block), block);
+    expect_no_growth<double>(of_any, all_edges(block == 5 ? EdgeLaw::rigid : EdgeLaw::free), {order}, steps_,
+                             0);
   }
 }
 

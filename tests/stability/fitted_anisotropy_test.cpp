@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "any_stiffness.hpp"
 #include "fitted_lab.hpp"
 #include "media.hpp"
 
@@ -104,6 +105,16 @@ TEST_P(FittedAnisotropy, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
     expect_no_growth<float>(medium(5, 6, true), all_edges(EdgeLaw::free), {order}, steps_, long_run_);
     expect_no_growth<double>(medium(6, 6, true), all_edges(EdgeLaw::free), {order, 4, 2}, steps_ / 2,
                              long_run_ / 2);
+  }
+}
+
+// Proves (F13).
+TEST_P(FittedAnisotropy, OfAnyStiffnessNeverAddsEnergy) {
+  for (const auto& [block, order] : {std::pair{1, 5}, {6, 7}, {100, 5}}) {
+    auto of_any = medium(1, 1, false);
+    put_any_stiffness(of_any, unsigned(block), block);
+    expect_no_growth<double>(of_any, all_edges(block == 6 ? EdgeLaw::rigid : EdgeLaw::free), {order}, steps_,
+                             long_run_);
   }
 }
 

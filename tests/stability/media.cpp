@@ -152,7 +152,14 @@ Medium<2> of_rocks(int cells, const std::function<Material(int i, int k)>& rock_
   Medium<2> medium = rock(cells, cells);
   medium[Property::epsilon] = medium[Property::delta] = Field<2>(medium.grid());
   for (int k = 0; k < cells; ++k)
-    for (int i = 0; i < cells; ++i) put(medium, std::size_t(k * cells + i), rock_at(i, k));
+    for (int i = 0; i < cells; ++i) {
+      const auto rock = rock_at(i, k);
+      if (rock.constants && !medium.has(Property::c33)) {
+        medium[Property::c33] = Field<2>(medium.grid());
+        complete_anisotropy(medium);
+      }
+      put(medium, std::size_t(k * cells + i), rock);
+    }
   return medium;
 }
 

@@ -253,6 +253,10 @@ const std::vector<Material>
     all_in_3d = {
         turned_by(shale, 30, 20), {2900, 1500, 2200}, cracked, turned_by(cracked, -40, 60, 15), shale};
 
+const std::vector<Material> any_rocks = {sheared, dipping_shale, plain, by_constants<2>(steep)},
+                            any_rocks_in_3d = {triclinic, turned_by(shale, 30, 20), plain,
+                                               by_constants<3>(askew)};
+
 template <int D>
 Scene<D> by(SlipCorrection correction, Scene<D> scene) {
   scene.numerics.correction = correction;
@@ -275,6 +279,8 @@ const Case cases[] = {
     {"PlaneWave", [](Cut) { return plane_wave_past_a_body<2>(); }, false},
     {"FittedSea", [](Cut cut) { return fitted_in_plane(false, cut); }},
     {"FittedHills", [](Cut cut) { return in_double(fitted_in_plane(true, cut)); }, false},
+    {"AnyRock", [](Cut cut) { return slipping(blocks<2>(any_rocks, cut)); }},
+    {"AnyRockInSpace", [](Cut cut) { return blocks<3>(any_rocks_in_3d, cut); }},
     {"UprightInSpace", [](Cut cut) { return blocks<3>(upright_in_3d, cut); }, false},
     {"OrthorhombicInSpace", [](Cut cut) { return blocks<3>(orthorhombic_in_3d, cut); }},
     {"OrthorhombicInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(orthorhombic_in_3d, cut)); },
@@ -332,6 +338,41 @@ TEST_P(SharedAnisotropicScene, GivesTheBitsOfOneProcessOnSeveral) {
       GetParam().scene(Cut::rows));
 }
 
+/// The scene with the elastic constants of its anisotropic rocks, and the same time step.
+template <int D>
+Scene<D> by_constants_of(const Scene<D>& scene) {
+  auto of = scene;
+  const auto& medium = scene.model.medium;
+  std::vector<Material> rocks;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    rocks.push_back(by_constants<D>(material_of(medium, cell)));
+  of.model.medium = medium_of(medium.grid(), rocks,
+                              [&](const Index<D>& at) { return rocks[std::size_t(medium.grid().flat(at))]; });
+  of.numerics.cfl *= stable_time_step_s(scene) / stable_time_step_s(of);
+  return of;
+}
+
+class ByElasticConstants : public testing::TestWithParam<Case> {};
+
+// Proves (T2), (O6).
+TEST_P(ByElasticConstants, ASceneGivesTheTracesOfItsParameters) {
+  const ThreadLimit one_thread(1);
+  std::visit(
+      [](const auto& scene) {
+        const auto wanted = samples_of(shoot(scene, 1)), found = samples_of(shoot(by_constants_of(scene), 1));
+        const auto components = scene.recording.components.size(), of_one = wanted.size() / components;
+        for (std::size_t component = 0; component < components; ++component) {
+          double peak = 0, apart = 0;
+          for (std::size_t n = component * of_one; n < (component + 1) * of_one; ++n) {
+            peak = std::max(peak, std::abs(double(wanted[n])));
+            apart = std::max(apart, std::abs(double(found[n] - wanted[n])));
+          }
+          EXPECT_LT(apart, 1e-5 * peak) << component;
+        }
+      },
+      GetParam().scene(Cut::columns));
+}
+
 const auto name_of_case = [](const auto& info) { return std::string(info.param.name); };
 INSTANTIATE_TEST_SUITE_P(Of, AnisotropicScene, testing::ValuesIn(cases), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Of, SharedAnisotropicScene, testing::ValuesIn([] {
@@ -339,6 +380,18 @@ INSTANTIATE_TEST_SUITE_P(Of, SharedAnisotropicScene, testing::ValuesIn([] {
                            std::copy_if(std::begin(cases), std::end(cases), std::back_inserter(shared),
                                         [](const Case& of) { return of.of_ranks; });
                            return shared;
+                         }()),
+                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(Of, ByElasticConstants, testing::ValuesIn([] {
+                           const auto is_without = [](const Case& of, const char* word) {
+                             return std::string(of.name).find(word) == std::string::npos;
+                           };
+                           std::vector<Case> compared;
+                           std::copy_if(std::begin(cases), std::end(cases), std::back_inserter(compared),
+                                        [&](const Case& of) {
+                                          return is_without(of, "Means") && is_without(of, "Attenuating");
+                                        });
+                           return compared;
                          }()),
                          name_of_case);
 

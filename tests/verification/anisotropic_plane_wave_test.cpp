@@ -135,7 +135,7 @@ double error_in_3d(const Material& rock, double angle_deg, double azimuth_deg, b
 // Proves (A17), (A19).
 TEST(AnisotropicPlaneWave, GoesThroughARockUndisturbed) {
   const ThreadLimit one_thread(1);
-  for (const auto& rock : {in_plane(shale), dipping_shale, steep})
+  for (const auto& rock : {in_plane(shale), dipping_shale, steep, sheared})
     for (const double angle : {0., 25., -40.})
       for (const bool shear : {false, true}) {
         if (!long_form() && (rock == steep || angle == (rock.tilt == 0 ? 0 : -40))) continue;
@@ -144,7 +144,7 @@ TEST(AnisotropicPlaneWave, GoesThroughARockUndisturbed) {
         EXPECT_LT(error_in_plane(rock, rock, angle, shear), shear ? 0.03 : 0.003)
             << rock.tilt << ' ' << angle << shear;
       }
-  for (const auto& rock : {shale, askew})
+  for (const auto& rock : {shale, askew, triclinic})
     for (const bool shear : {false, true}) {
       if (!long_form() && shear != (rock == shale)) continue;
       EXPECT_LT(error_in_3d(rock, 25, 40, shear), shear ? 0.05 : 0.01) << rock.tilt << shear;

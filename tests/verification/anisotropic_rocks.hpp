@@ -47,6 +47,23 @@ inline const Material cracked =
 inline const Material dipping_shale = turned_by(shale, 30), steep = turned_by(crossed, -60),
                       askew = turned_by(cracked, 40, 25, -50);
 
+/// The rock by its elastic constants; isotropic rock and water stay.
+template <int D>
+Material by_constants(const Material& rock) {
+  if (D == 2 ? !rock.is_anisotropic() : !rock.is_anisotropic_in_3d()) return rock;
+  return rock_of_constants<D>(elasticity_of<D>(rock), rock.rho);
+}
+/// Rocks without an axis of symmetry: one of the plane of x and z, one in 3-D.
+inline const Material sheared =
+    rock_of_constants<2>({{{{26e9, 9e9, 2.5e9}, {9e9, 20e9, -2e9}, {2.5e9, -2e9, 6e9}}}}, 2300);
+inline const Material triclinic = rock_of_constants<3>({{{{20.7e9, 8.3e9, 5.2e9, 0.7e9, -0.9e9, 0.6e9},
+                                                          {8.3e9, 22.6e9, 5.5e9, -0.5e9, 0.4e9, -0.8e9},
+                                                          {5.2e9, 5.5e9, 13.7e9, 0.9e9, -0.6e9, 0.3e9},
+                                                          {0.7e9, -0.5e9, 0.9e9, 4.6e9, 0.4e9, -0.3e9},
+                                                          {-0.9e9, 0.4e9, -0.6e9, 0.4e9, 3.7e9, 0.5e9},
+                                                          {0.6e9, -0.8e9, 0.3e9, -0.3e9, 0.5e9, 5e9}}}},
+                                                       2300);
+
 /// As a model in 2-D has a rock of the plane of x and z, and one in 3-D a rock of 2-D.
 inline Material in_plane(Material rock) {
   rock.gamma = 0, rock.azimuth = 0, rock.orthorhombic = {};
@@ -63,6 +80,7 @@ void describe(Medium<D>& medium, const std::vector<Material>& rocks) {
   if (any([](const Material& rock) { return rock.tilt != 0; })) add(Property::tilt);
   if (any([](const Material& rock) { return rock.azimuth != 0; })) add(Property::azimuth);
   if (any([](const Material& rock) { return rock.rotation != 0; })) add(Property::rotation);
+  if (any([](const Material& rock) { return rock.constants.has_value(); })) add(Property::c33);
   complete_anisotropy(medium);
 }
 
