@@ -101,9 +101,11 @@ template <int D>
 void check_constants(const Medium<D>& medium, std::size_t cell) {
   for (const auto property : {Property::qp, Property::qs})
     if (medium.value(property, cell) < elastic_quality)
-      refuse(medium.grid(), cell, row_of(property).name,
-             "is " + shown_float(medium.value(property, cell)) +
-                 ", expected inf where rock has elastic constants: how it attenuates is not known");
+      refuse(
+          medium.grid(), cell, row_of(property).name,
+          "is " + shown_float(medium.value(property, cell)) +
+              ", expected inf where rock has elastic constants: how it attenuates is not known; leave it out "
+              "there");
 }
 
 template <int D>

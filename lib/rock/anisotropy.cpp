@@ -166,9 +166,19 @@ bool any_tilted_axes(const Medium<D>& medium) {
   return false;
 }
 
+namespace {
+
+/// Where a search for the slowest speeds begins: those along the axis, which elastic constants do not tell.
+PlaneSpeeds before_all_directions(const Material& material) {
+  if (!material.constants) return {material.vp, material.vs};
+  return {PropertyRow::infinite, PropertyRow::infinite};
+}
+
+}  // namespace
+
 template <>
 PlaneSpeeds slowest_speeds<2>(const Material& material) {
-  PlaneSpeeds slowest = {material.vp, material.vs};
+  auto slowest = before_all_directions(material);
   if (!material.is_anisotropic()) return slowest;
   each_direction<2>(material, [&](const Point<2>& speeds) {
     slowest = {std::min(slowest.p, speeds[0]), std::min(slowest.s, speeds[1])};
@@ -178,7 +188,7 @@ PlaneSpeeds slowest_speeds<2>(const Material& material) {
 
 template <>
 PlaneSpeeds slowest_speeds<3>(const Material& material) {
-  PlaneSpeeds slowest = {material.vp, material.vs};
+  auto slowest = before_all_directions(material);
   const auto see = [&](const Point<3>& speeds) {
     slowest = {std::min(slowest.p, speeds[0]), std::min(slowest.s, speeds[2])};
   };
@@ -399,7 +409,8 @@ std::string gpa(double pascal) { return shown(pascal / 1e9, 6) + " GPa"; }
 
 std::string above_soft_constant(const SoftConstant& soft) {
   return "more than " + gpa(soft.least) +
-         " beside the constants of lower numbers, or some strain would cost no energy";
+         " beside the constants of lower numbers, or some strain would cost no energy; raise it, or lower "
+         "those that couple it to them";
 }
 
 std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_3d) {

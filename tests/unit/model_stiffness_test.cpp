@@ -3,7 +3,9 @@
 
 #include <numbers>
 
+#include "build/resample.hpp"
 #include "geology/layers.hpp"
+#include "model/model_netcdf.hpp"
 #include "refusal.hpp"
 #include "rock/anisotropy.hpp"
 #include "rock/stiffness_input.hpp"
@@ -71,7 +73,7 @@ TEST(GivenStiffness, ThatNoRockHasIsRefused) {
   tilts[Modulus::c15] = 9e9, tilts[Modulus::c35] = -9e9;
   EXPECT_EQ(told(tilts),
             "c55 is 6 GPa, expected more than 11.8087 GPa beside the constants of lower numbers, or some "
-            "strain would cost no energy");
+            "strain would cost no energy; raise it, or lower those that couple it to them");
   auto deep = of_plane(26e9, 9e9, 20e9, 6e9);
   deep[Modulus::c66] = 22e9;
   EXPECT_EQ(told(deep),
@@ -214,6 +216,70 @@ TEST(ElasticConstants, HaveTheSpeedsOfTheChristoffelEquation) {
   EXPECT_NEAR(fastest, most, 2e-3 * most);
   EXPECT_EQ(fastest_p_speed<3>(rock), fastest);
   EXPECT_GE(fastest, fastest_along_grid(rock));
+}
+
+TEST(ElasticConstants, ThatDoNotGoWithTheRestOfAModelAreRefused) {
+  const Grid<2> grid{{2, 1}, 10, {0, 0}};
+  auto plane = of_plane(26e9, 9e9, 20e9, 6e9);
+  plane[Modulus::c15] = 2.5e9, plane[Modulus::c35] = -2e9;
+  const auto told = [&](Property property, float value, bool in_3d = false) {
+    Model<2> model;
+    model.medium = Medium<2>(grid);
+    model.medium[Property::c33] = Field<2>(grid);
+    complete_anisotropy(model.medium);
+    put(model.medium, 0, {3000, 1600, 2300}), put(model.medium, 1, material_of_given(plane, 2300));
+    if (!model.medium.has(property)) model.medium[property] = Field<2>(grid);
+    model.medium[property][1] = value;
+    return refusal([&] { check(model, {.in_3d = in_3d}); });
+  };
+  EXPECT_EQ(told(Property::rho, 2300), "");
+  EXPECT_EQ(told(Property::vp, 3500), "c33 at x=15 z=5 is 20 GPa, expected 28.175 GPa as of rho vp^2");
+  EXPECT_EQ(told(Property::vs, 0),
+            "c11 at x=15 z=5 is 26 GPa, expected all elastic constants to be 0 in fluid");
+  EXPECT_EQ(
+      told(Property::tilt, 20),
+      "tilt at x=15 z=5 is 20, expected 0 where elastic constants, which are along the axes of the grid, "
+      "say what the rock is");
+  EXPECT_EQ(told(Property::c11, -1e9F),
+            "c11 at x=15 z=5 is -1 GPa, expected more than 0 GPa beside the constants of lower numbers, or "
+            "some strain would cost no energy; raise it, or lower those that couple it to them");
+  EXPECT_NE(told(Property::rho, 2300, true).find("c22 at x=15 z=5 is 0 GPa, expected more in 3-D"),
+            std::string::npos);
+}
+
+TEST(ElasticConstants, AreLinearBetweenCellsAndSurviveAFile) {
+  const Grid<2> grid{{2, 2}, 10, {0, 0}};
+  auto plane = of_plane(26e9, 9e9, 20e9, 6e9);
+  plane[Modulus::c15] = 2.5e9, plane[Modulus::c35] = -2e9;
+  const auto sheared = material_of_given(plane, 2300);
+  const Material rock = {2500, 1200, 2100};
+  Model<2> model;
+  model.medium = Medium<2>(grid);
+  model.medium[Property::c33] = Field<2>(grid);
+  complete_anisotropy(model.medium);
+  for (const std::size_t cell : {0, 1, 2, 3}) put(model.medium, cell, cell < 2 ? rock : sheared);
+  // Centres a quarter of an old cell off the old centres.
+  const auto fine = resampled(model, 5, true, Extent::kept);
+  const auto found = elasticity_of<2>(material_of(fine.medium, std::size_t(fine.grid().flat({1, 1}))));
+  const auto one = elasticity_of<2>(rock), other = elasticity_of<2>(sheared);
+  for (const auto& [m, n] : {std::pair{1, 1}, {1, 3}, {1, 5}, {3, 3}, {3, 5}, {5, 5}})
+    EXPECT_NEAR(found(m, n), 0.75 * one(m, n) + 0.25 * other(m, n), 1e-6 * other(3, 3)) << m << n;
+  EXPECT_EQ(material_of(fine.medium, 0), rock);
+  EXPECT_EQ(refusal([&] { check(fine); }), "");
+  // Means of larger cells are those of layers.
+  const auto coarse = resampled(model, 20, true, Extent::kept);
+  const auto mean = elasticity_of<2>(material_of(coarse.medium, 0));
+  const double determinant = mean(3, 3) * mean(5, 5) - mean(3, 5) * mean(3, 5);
+  EXPECT_NEAR(mean(5, 5) / determinant,
+              (1 / one(3, 3) + other(5, 5) / (other(3, 3) * other(5, 5) - other(3, 5) * other(3, 5))) / 2,
+              1e-6 / mean(3, 3));
+  const auto path = testing::TempDir() + "constants.nc";
+  write_model(model, path);
+  const auto read = read_model<2>(path);
+  for (const auto property : model.medium.properties())
+    EXPECT_TRUE(std::equal(read.medium[property].begin(), read.medium[property].end(),
+                           model.medium[property].begin()));
+  EXPECT_EQ(read.medium.properties(), model.medium.properties());
 }
 
 // Proves (O5a).
