@@ -100,6 +100,10 @@ TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfPlanesAskewToItsAxes) {
   expect_slip_takes_energy(
       {{{0, 1}}, {{0.6, 0.8}}, {{0.6, 0.8}, {1, 0}}}, [&] { return of_tilted_rocks(24, random); },
       long_form() ? 20000 : 300);
+  expect_slip_takes_energy(
+      {{{0.6, 0.8}}, {{0.6, 0.8}, {1, 0}}},
+      [&] { return of_rocks(24, [&](int, int) { return any_stiffness<2>(random, 0.05); }); },
+      long_form() ? 20000 : 300);
 }
 
 // Proves (V1).

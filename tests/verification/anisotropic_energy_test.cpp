@@ -116,7 +116,9 @@ TEST(EnergyOfAnisotropicSpace, IsTakenBySlip) {
   for (int n = 0; n < (long_form() ? 6 : 3); ++n) {
     auto set = families(any_dips(draw, 1 + n % 3), n % 2 ? 0.3 : 0, n % 4 < 2 ? 500 : 0);
     for (auto& system : set.systems) system.strength_pa = n % 2 ? 0 : 3e5;
-    const auto rock = [&] { return draw.rock(0.25, {0.3, 0.65}, true); };
+    const auto rock = [&] {
+      return n == 1 ? any_stiffness<3>([&] { return draw(0, 1); }, 0.05) : draw.rock(0.25, {0.3, 0.65}, true);
+    };
     auto scene = any_rocks(rock, 1, set, long_form() ? Index<3>{12, 10, 11} : Index<3>{8, 7, 7});
     for (auto& cell : scene.model.fracture) cell = draw(0, 1) < 0.8;
     scene.slip_diary = true;
@@ -154,7 +156,10 @@ TEST(EnergyOfAnisotropicSpace, IsNotAddedToBySpringsHoweverStiffOrSoft) {
   for (const double softness : {1e-3, 1., 30., 1e4, 1e9})
     for (const int block : {1, 5}) {
       const auto set = springs(any_dips(draw, 1 + number % 3), number % 4 == 3 ? 0 : softness, softness);
-      const auto rock = [&] { return draw.rock(0.25, {0.3, 0.65}, true); };
+      const auto rock = [&] {
+        return number % 3 == 1 ? any_stiffness<3>([&] { return draw(0, 1); }, 0.05)
+                               : draw.rock(0.25, {0.3, 0.65}, true);
+      };
       auto scene = any_rocks(rock, block, set, long_form() ? Index<3>{12, 10, 11} : Index<3>{10, 8, 9});
       for (auto& cell : scene.model.fracture) cell = number % 2 == 0 || draw(0, 1) < 0.7;
       const auto edges = edges_all_3d(number % 3 ? EdgeLaw::rigid : EdgeLaw::mirror);
