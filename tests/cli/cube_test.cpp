@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <sstream>
 
 #include "shell.hpp"
 
@@ -28,6 +29,27 @@ TEST_F(Cube, OfLayersIsTheSectionExtrudedAlongY) {
          " extruded.nc | sed '1,/^data:/d')");
   expect_refused("sw-import --vp flat.nc --vs flat.nc --rho flat.nc --extrude 125 -o no.nc", 2,
                  "sw-import: --extrude: 125 m are 12.5 steps of 10 m, expected a whole number");
+}
+
+TEST_F(Cube, OfElasticConstantsIsTheSameByLayersAndByImport) {
+  const std::pair<const char*, double> constants[] = {
+      {"c11", 20.7}, {"c22", 22.6}, {"c33", 13.7}, {"c44", 4.6}, {"c55", 3.7},  {"c66", 5},   {"c12", 8.3},
+      {"c13", 5.2},  {"c23", 5.5},  {"c14", 0.7},  {"c25", 0.4}, {"c46", -0.3}, {"c56", 0.5}, {"c36", 0.3}};
+  std::ostringstream named, options;
+  for (const auto& [name, value] : constants)
+    named << ' ' << name << '=' << value, options << " --" << name << ' ' << value;
+  done("sw-layers --size 100x80x60 --step 10 --units GPa --layer '0:-:-:2300" + named.str() + "' -o one.nc");
+  done("sw-import --rho one.nc --units GPa" + options.str() + " -o other.nc");
+  for (const char* name : {"vp", "vs", "rho", "c11", "c14", "c15", "c46", "c66"})
+    done("diff <(ncdump -v " + std::string(name) + " one.nc | sed '1,/^data:/d') <(ncdump -v " + name +
+         " other.nc | sed '1,/^data:/d')");
+  const auto info = done("sw-info other.nc");
+  EXPECT_TRUE(has(info, "c46") && !has(info, "epsilon")) << info;
+  for (const std::string model : {"one", "other"})
+    done("sw-shoot " + model + ".nc --source 55,45,35 --kind force:1,0,2 --wavelet ricker:15 --time 0.05 " +
+         "--receivers 35,25,25 -q -o " + model + ".sgy");
+  EXPECT_TRUE(has(done("sw-diff one.sgy other.sgy | sw-info -"), "amplitude 0 Pa"));
+  done("sw-plot one.nc --at 55,45,35 -o rock.png; sw-export one.nc --property c46 -o c46.sgy");
 }
 
 TEST_F(Cube, IsFracturedInBoxesEllipsoidsAndSlabs) {
