@@ -44,6 +44,7 @@ std::vector<Source> sources() {
     space("Shale", shale, kind, 0.007), space("Crossed", crossed, kind, 0.007);
     space("DippingShale", dipping_shale, kind, 0.008, kind != 1), space("Steep", steep, kind, 0.008, false);
   }
+  space("AnyRock", sheared, 0, 0.008), space("AnyRock", sheared, 2, 0.008, false);
   space("Sandstone", sandstone, 1, 0.007), space("Elliptical", elliptical, 1, 0.007);
   const auto add = [&](const char* name, const std::function<Stack()>& stack, double bound,
                        bool in_short = true) {
@@ -69,7 +70,8 @@ std::vector<Source> sources() {
   for (const auto& [name, rock, in_short] : {std::tuple{"Shale", shale, true},
                                              {"Crossed", crossed, true},
                                              {"DippingShale", dipping_shale, true},
-                                             {"Steep", steep, false}}) {
+                                             {"Steep", steep, false},
+                                             {"AnyRock", sheared, true}}) {
     all.push_back(
         {std::string(name) + "BelowASurface", [rock = rock] { return below_surface(rock); }, 0.01, in_short});
     all.push_back(
@@ -347,7 +349,8 @@ struct ForceInSpace {
     const auto n = std::int64_t(std::ceil(near * 34 * cells / 24));
     constexpr double h = 5;
     ricker_hz = slowest_speeds<3>(rock).s / (cells * h);
-    const bool tilted = whole || rock.tilt != 0, mirrored = !whole && (!tilted || rock.azimuth == 90);
+    const bool tilted = whole || rock.tilt != 0 || rock.constants,
+               mirrored = !whole && (!tilted || rock.azimuth == 90);
     sources = !tilted ? 4 : mirrored ? 2 : 1;
     auto edges = edges_all_3d(EdgeLaw::absorbing);
     if (mirrored) edges[0][0] = EdgeLaw::mirror;
@@ -431,6 +434,7 @@ TEST(ForceInAnisotropicSpace, IsThatOfPlaneWavesInAllDirections) {
   const auto along_y = turned_by(shale, 30, 90);
   EXPECT_LT(error_of_a_force(cracked, 16), 0.006);
   EXPECT_LT(error_of_a_force(along_y, 12), 0.02);
+  EXPECT_LT(error_of_a_force(triclinic, 12), 0.02);
   if (!long_form()) return;
   for (const auto& rock : {shale, crossed, cracked})
     for (const int order : {5, 7}) {
@@ -438,6 +442,7 @@ TEST(ForceInAnisotropicSpace, IsThatOfPlaneWavesInAllDirections) {
       EXPECT_LT(error_of_a_force(rock, 24, order), 0.005) << order;
     }
   EXPECT_LT(error_of_a_force(along_y, 24), 0.004);
+  EXPECT_LT(error_of_a_force(triclinic, 24), 0.005);
   for (const auto& rock : {along_y, turned_by(crossed, -50, 35), askew})
     EXPECT_LT(error_of_a_force(rock, 16), 0.01) << rock.tilt;
 }
