@@ -193,9 +193,11 @@ void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& name
   layer.material = material_of_given(given, layer.material.rho);
   const auto& of = layer.material;
   const auto add = [&](Property property, double value) { layer.others.emplace_back(property, value); };
-  for (std::size_t n = 0; of.constants && n < of.constants->size(); ++n)
-    if ((*of.constants)[n] != 0) add(constant_at(n), (*of.constants)[n]);
-  if (of.constants) return;
+  if (of.constants) {
+    for (std::size_t n = 0; n < (*of.constants).size(); ++n)
+      if ((*of.constants)[n] != 0) add(constant_at(n), (*of.constants)[n]);
+    return;
+  }
   if (of.is_anisotropic()) add(Property::epsilon, of.epsilon), add(Property::delta, of.delta);
   if (of.tilt != 0) add(Property::tilt, of.tilt);
   if (of.gamma != 0) add(Property::gamma, of.gamma);

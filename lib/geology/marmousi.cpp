@@ -16,7 +16,7 @@ namespace {
 
 using marmousi::Bed;
 
-constexpr Material water{1500, 0, 1010};
+const Material water{1500, 0, 1010};
 constexpr std::uint64_t water_body = 0;
 
 /// What is under a point of the surface. Depth decides in two steps: the bed, which many points share, and

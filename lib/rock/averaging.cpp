@@ -35,15 +35,14 @@ void add_layer(SumsOfLayers& sums, Elasticity<3> c, double volume) {
 }  // namespace
 
 template <int D>
-std::optional<ElasticConstants> constants_of(const Medium<D>& medium, std::size_t cell) {
+ConstantsIfAny constants_of(const Medium<D>& medium, std::size_t cell) {
   ElasticConstants constants;
   bool any = false;
   for (std::size_t n = 0; n < constants.size(); ++n) {
     constants[n] = medium.value(constant_at(n), cell);
     any = any || constants[n] != 0;
   }
-  if (!any || medium.is_void(cell)) return {};
-  return constants;
+  return any && !medium.is_void(cell) ? ConstantsIfAny(constants) : ConstantsIfAny();
 }
 
 template <int D>
@@ -135,7 +134,7 @@ double ScalarMean::mean() const {
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, put_constants);
-template std::optional<ElasticConstants> constants_of(const Medium<2>&, std::size_t);
-template std::optional<ElasticConstants> constants_of(const Medium<3>&, std::size_t);
+template ConstantsIfAny constants_of(const Medium<2>&, std::size_t);
+template ConstantsIfAny constants_of(const Medium<3>&, std::size_t);
 
 }  // namespace slipwave

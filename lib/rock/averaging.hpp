@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "base/small_matrix.hpp"
@@ -25,6 +26,34 @@ constexpr std::size_t place_of_constant(int m, int n) { return std::size_t((m - 
 /// The property that holds one, by its place.
 constexpr Property constant_at(std::size_t place) { return Property(std::size_t(Property::c11) + place); }
 
+/// Elastic constants, or none: most rock has none, and room for a pointer to them.
+class ConstantsIfAny {
+ public:
+  ConstantsIfAny() = default;
+  explicit ConstantsIfAny(const ElasticConstants& of) : of_(std::make_unique<ElasticConstants>(of)) {}
+  ConstantsIfAny(const ConstantsIfAny& other) : of_(other.copy()) {}
+  ConstantsIfAny(ConstantsIfAny&&) = default;
+  ConstantsIfAny& operator=(const ConstantsIfAny& other) {
+    if (of_ || other.of_) of_ = other.copy();
+    return *this;
+  }
+  ConstantsIfAny& operator=(ConstantsIfAny&&) = default;
+  ~ConstantsIfAny() = default;
+  explicit operator bool() const { return of_ != nullptr; }
+  const ElasticConstants& operator*() const { return *of_; }
+  /// All 0 where there are none.
+  ElasticConstants values() const { return of_ ? *of_ : ElasticConstants{}; }
+  bool operator==(const ConstantsIfAny& other) const {
+    return of_ && other.of_ ? *of_ == *other.of_ : !of_ && !other.of_;
+  }
+
+ private:
+  std::unique_ptr<ElasticConstants> copy() const {
+    return of_ ? std::make_unique<ElasticConstants>(*of_) : nullptr;
+  }
+  std::unique_ptr<ElasticConstants> of_;
+};
+
 /// What an elastic point of a medium is made of. vs = 0 is fluid, rho = 0 is void, as in Medium.
 struct Material {
   double vp = 0, vs = 0;          // m/s
@@ -38,7 +67,7 @@ struct Material {
   double azimuth = 0, rotation = 0;
 
   /// Say all but the density: vp and vs are sqrt(c33/rho) and sqrt(c55/rho) then, the parameters 0.
-  std::optional<ElasticConstants> constants = {};
+  ConstantsIfAny constants = {};
 
   /// In 2-D and in 3-D.
   bool is_anisotropic() const { return epsilon != 0 || delta != 0 || constants; }
@@ -53,7 +82,7 @@ bool has_constants(const Medium<D>& medium, std::size_t cell) {
 }
 /// Returns those of a cell of a medium that has some; nothing where all are 0, and in void.
 template <int D>
-std::optional<ElasticConstants> constants_of(const Medium<D>& medium, std::size_t cell);
+ConstantsIfAny constants_of(const Medium<D>& medium, std::size_t cell);
 template <int D>
 void put_constants(Medium<D>& medium, std::size_t cell, const ElasticConstants& constants);
 
@@ -89,7 +118,7 @@ void put(Medium<D>& medium, std::size_t cell, const Material& material) {
   if (medium.has(Property::gamma)) medium[Property::gamma][cell] = float(material.gamma);
   if (medium.has(Property::azimuth)) medium[Property::azimuth][cell] = float(material.azimuth);
   if (medium.has(Property::rotation)) medium[Property::rotation][cell] = float(material.rotation);
-  if (medium.has(Property::c33)) put_constants(medium, cell, material.constants.value_or(ElasticConstants{}));
+  if (medium.has(Property::c33)) put_constants(medium, cell, material.constants.values());
   if (!medium.has(Property::epsilon1)) return;
   const auto of =
       material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});

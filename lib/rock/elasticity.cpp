@@ -130,7 +130,10 @@ Material rock_of_constants(const Elasticity<D>& c, double rho) {
   constexpr int step = D == 3 ? 1 : 2;
   for (int m = 1; m <= 6; m += step)
     for (int n = m; n <= 6; n += step) constants[place_of_constant(m, n)] = c(m, n);
-  return {.vp = std::sqrt(c(3, 3) / rho), .vs = std::sqrt(c(5, 5) / rho), .rho = rho, .constants = constants};
+  return {.vp = std::sqrt(c(3, 3) / rho),
+          .vs = std::sqrt(c(5, 5) / rho),
+          .rho = rho,
+          .constants = ConstantsIfAny(constants)};
 }
 
 template <int D>

@@ -24,7 +24,7 @@
 namespace slipwave {
 namespace {
 
-constexpr Material shale{3000, 1600, 2300, 0.2, 0.1}, crossed{3200, 1700, 2400, -0.05, 0.2},
+const Material shale{3000, 1600, 2300, 0.2, 0.1}, crossed{3200, 1700, 2400, -0.05, 0.2},
     rock{2500, 1200, 2100};
 
 Model<2> one_cell(const Material& of) {

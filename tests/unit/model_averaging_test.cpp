@@ -11,7 +11,7 @@ using namespace slipwave;
 
 namespace {
 
-constexpr Material soft{2500, 1200, 2000}, hard{4500, 2250, 2500}, water{1500, 0, 1000}, air{};
+const Material soft{2500, 1200, 2000}, hard{4500, 2250, 2500}, water{1500, 0, 1000}, air{};
 
 /// Shares by looking at 400 x 400 points of the cell.
 std::vector<double> counted_shares(const std::vector<Cut>& tops) {

@@ -13,7 +13,7 @@
 namespace slipwave {
 namespace {
 
-constexpr Material soft{2000, 1150, 2000}, hard{4000, 2300, 2300};
+const Material soft{2000, 1150, 2000}, hard{4000, 2300, 2300};
 
 Layer layer_of(double depth, const Material& rock, double dip_deg = 0) {
   return {depth, rock.vp, rock.vs, rock.rho, dip_deg};

@@ -80,7 +80,7 @@ void describe(Medium<D>& medium, const std::vector<Material>& rocks) {
   if (any([](const Material& rock) { return rock.tilt != 0; })) add(Property::tilt);
   if (any([](const Material& rock) { return rock.azimuth != 0; })) add(Property::azimuth);
   if (any([](const Material& rock) { return rock.rotation != 0; })) add(Property::rotation);
-  if (any([](const Material& rock) { return rock.constants.has_value(); })) add(Property::c33);
+  if (any([](const Material& rock) { return bool(rock.constants); })) add(Property::c33);
   complete_anisotropy(medium);
 }
 

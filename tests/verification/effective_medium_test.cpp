@@ -17,7 +17,7 @@
 namespace slipwave::solver {
 namespace {
 
-constexpr Material rock{3370, 1830, 2500};
+const Material rock{3370, 1830, 2500};
 constexpr double peak_hz = 20;
 const double mu = rock.rho * rock.vs * rock.vs, modulus = rock.rho * rock.vp * rock.vp;
 

@@ -222,7 +222,7 @@ class AnisotropicMedia {
   std::int32_t number(const Material& material, bool mean, bool curvilinear) {
     const auto extra =
         material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
-    const auto constants = material.constants.value_or(ElasticConstants{});
+    const auto constants = material.constants.values();
     Key key{material.vp,    material.vs,   material.rho,     material.epsilon,  material.delta,
             material.gamma, material.tilt, material.azimuth, material.rotation, extra.epsilon1,
             extra.delta1,   extra.delta3,  extra.gamma2,     double(mean),      double(curvilinear)};
