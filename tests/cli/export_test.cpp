@@ -97,7 +97,8 @@ TEST_F(Export, RefusesWhatItCannotExport) {
       {"sw-export m.nc --property vx", 2,
        "sw-export: --property: m.nc is a model: found 'vx', expected vp, vs, rho, qp, qs, epsilon, delta, "
        "gamma, epsilon1, delta1, delta3, gamma2, tilt, azimuth, rotation, cut_epsilon, cut_delta, cut_dip, "
-       "c11, c12, c13, c14, c15, c16, c22, c23, c24, c25, c26, c33, c34, c35, c36, c44, c45, c46, c55, c56, c66 "
+       "c11, c12, c13, c14, c15, c16, c22, c23, c24, c25, c26, c33, c34, c35, c36, c44, c45, c46, c55, c56, "
+       "c66 "
        "or fracture"},
       {"sw-export m.nc --property vp --time 1", 2, "sw-export: --time: m.nc is a model, expected snapshots"},
       {"sw-export none.nc --property vp", 1, "sw-export: none.nc: No such file or directory"},
