@@ -30,6 +30,10 @@ Prestress<D> parse_prestress(const std::string& text);
 /// order of SymmetricTensor.
 template <int D>
 const std::vector<std::string>& stress_names();
+template <>
+const std::vector<std::string>& stress_names<2>();
+template <>
+const std::vector<std::string>& stress_names<3>();
 
 /// Gives the cells of fracture set `code` (1-based) their prestress; of one on faces the cells on both sides
 /// of these that belong to no other set.

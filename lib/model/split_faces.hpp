@@ -70,6 +70,10 @@ const FractureSet<D>* first_on_faces(const std::vector<FractureSet<D>>& sets) {
 /// where one with friction shares a face with another.
 template <int D>
 std::vector<SplitFace<D>> split_faces(const Model<D>& model, std::int64_t* left = nullptr);
+template <>
+std::vector<SplitFace<2>> split_faces(const Model<2>& model, std::int64_t* left);
+template <>
+std::vector<SplitFace<3>> split_faces(const Model<3>& model, std::int64_t* left);
 /// Returns the faces that one set splits.
 template <int D>
 std::vector<SplitFace<D>> split_faces(const Model<D>& model, const FractureSet<D>& set);
