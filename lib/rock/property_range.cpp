@@ -13,7 +13,7 @@ bool is_in_range(const PropertyRow& row, double value) {
 }
 
 std::string expected_values(const PropertyRow& row) {
-  const std::string finite = "a finite number";
+  std::string finite = "a finite number";
   if (std::isinf(row.largest) && row.if_absent == PropertyRow::infinite)
     return "a number of at least " + shown(row.least) + ", or inf";
   if (std::isinf(row.least) && std::isinf(row.largest)) return finite;
