@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace slipwave {
@@ -19,6 +20,13 @@ Number dot_product(const std::array<Number, N>& a, const std::array<Number, N>& 
   Number sum = 0;
   for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
   return sum;
+}
+/// Divided by its length.
+template <std::size_t N>
+std::array<double, N> normalized(std::array<double, N> vector) {
+  const double length = std::sqrt(dot_product(vector, vector));
+  for (auto& component : vector) component /= length;
+  return vector;
 }
 
 /// Unit vector along one of the axes.
@@ -96,15 +104,24 @@ SmallMatrix<N> inverse_of(const SmallMatrix<N>& m) {
   return inverse;
 }
 
-/// Whether a symmetric matrix is positive definite: its pivots are.
+/// The first pivot of Gauss's elimination of a symmetric matrix that is not positive.
+struct Pivot {
+  std::size_t row;
+  double value;
+};
 template <std::size_t N>
-bool is_positive(SmallMatrix<N> m) {
+std::optional<Pivot> first_pivot_not_positive(SmallMatrix<N> m) {
   for (std::size_t k = 0; k < N; ++k) {
-    if (!(m[k][k] > 0)) return false;
+    if (!(m[k][k] > 0)) return Pivot{k, m[k][k]};
     for (std::size_t i = k + 1; i < N; ++i)
       for (std::size_t j = k + 1; j < N; ++j) m[i][j] -= m[i][k] * m[k][j] / m[k][k];
   }
-  return true;
+  return {};
+}
+/// Whether a symmetric matrix is positive definite: its pivots are.
+template <std::size_t N>
+bool is_positive(const SmallMatrix<N>& m) {
+  return !first_pivot_not_positive(m);
 }
 
 /// Eigenvalues of a symmetric matrix, falling, and their unit eigenvectors.

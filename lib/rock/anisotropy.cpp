@@ -84,9 +84,7 @@ std::vector<Point<D>> main_directions(bool of_octant) {
     for (auto& part : direction) part = left % parts - most, left /= parts;
     if (of_octant && std::any_of(direction.begin(), direction.end(), [](double part) { return part < 0; }))
       continue;
-    const double size = std::sqrt(dot_product(direction, direction));
-    for (auto& part : direction) part /= size;
-    all.push_back(direction);
+    all.push_back(normalized(direction));
   }
   return all;
 }

@@ -138,15 +138,10 @@ Material rock_of_constants(const Elasticity<D>& c, double rho) {
 
 template <int D>
 std::optional<SoftConstant> soft_constant(const Elasticity<D>& elasticity) {
-  // Pivots of Gauss's elimination, as is_positive() asks for them.
-  auto m = elasticity.voigt;
-  for (std::size_t k = 0; k < m.size(); ++k) {
-    const double pivot = m[k][k], constant = elasticity.voigt[k][k];
-    if (!(pivot > 0)) return SoftConstant{D == 3 ? int(k) + 1 : 2 * int(k) + 1, constant - pivot};
-    for (std::size_t i = k + 1; i < m.size(); ++i)
-      for (std::size_t j = k + 1; j < m.size(); ++j) m[i][j] -= m[i][k] * m[k][j] / pivot;
-  }
-  return {};
+  const auto pivot = first_pivot_not_positive(elasticity.voigt);
+  if (!pivot) return {};
+  const int number = D == 3 ? int(pivot->row) + 1 : 2 * int(pivot->row) + 1;
+  return SoftConstant{number, elasticity(number, number) - pivot->value};
 }
 
 template <>
@@ -271,9 +266,7 @@ double backward_group_velocity(const Elasticity<D>& elasticity, int axis) {
       for (const double way : {step, -step}) {
         auto beside = best;
         beside[a] += way;
-        const double length = std::sqrt(dot_product(beside, beside));
-        for (auto& component : beside) component /= length;
-        rose = keep_larger(beside) || rose;
+        rose = keep_larger(normalized(beside)) || rose;
       }
     if (!rose) step /= 2;
   }

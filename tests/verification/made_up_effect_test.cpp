@@ -72,13 +72,27 @@ class OneRow : public Record<2, double> {
   std::vector<double> velocities;
 };
 
-constexpr double length_m = 480, vp = 3000, tau_s = 0.1;
+constexpr double vp = 3000, vs = 1700, rho = 2300;
+
+/// One rock between rigid walls across x.
+Scene<2> channel(double length_m, double spacing_m, const Tiling& tiling) {
+  Scene<2> scene;
+  scene.model.medium = Medium<2>(Grid<2>{{std::llround(length_m / spacing_m), 12}, spacing_m, {0, 0}});
+  for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
+    put(scene.model.medium, cell, {vp, vs, rho});
+  scene.edges[0] = {EdgeLaw::rigid, EdgeLaw::rigid};
+  scene.edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
+  scene.numerics.tiling = tiling;
+  return scene;
+}
+
+constexpr double length_m = 480, tau_s = 0.1;
 constexpr double wave_number = 2 * std::numbers::pi / length_m;
 
 /// A standing P wave along x between rigid walls, in cells of `spacing_m`, with drag.
 class DraggedWave {
  public:
-  DraggedWave(double spacing_m, const Tiling& tiling) : scene_(scene_of(spacing_m, tiling)) {
+  DraggedWave(double spacing_m, const Tiling& tiling) : scene_(channel(length_m, spacing_m, tiling)) {
     StepBuilder<2, double> builder{scene_, domain_, state_, dt_s_};
     effects_.push_back(std::make_unique<Drag>(domain_, tau_s));
     step_ = std::make_unique<TimeStep<2, double>>(builder.time_step(sweeps_, effects_, {&record_}, steps()));
@@ -106,16 +120,6 @@ class DraggedWave {
   const std::vector<double>& velocities() const { return record_.velocities; }
 
  private:
-  static Scene<2> scene_of(double spacing_m, const Tiling& tiling) {
-    Scene<2> scene;
-    scene.model.medium = Medium<2>(Grid<2>{{std::llround(length_m / spacing_m), 12}, spacing_m, {0, 0}});
-    for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
-      put(scene.model.medium, cell, {vp, 1700, 2300});
-    scene.edges[0] = {EdgeLaw::rigid, EdgeLaw::rigid};
-    scene.edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
-    scene.numerics.tiling = tiling;
-    return scene;
-  }
   const Index<2>& shape() const { return domain_.grid.shape; }
   std::int64_t steps() const { return std::llround(0.3 / dt_s_); }
   double standing(std::int64_t i) const {
@@ -183,7 +187,8 @@ class Dashpots : public FaceTreatment<2, double> {
 /// A pulse of P waves along x that meets dashpots of the rock's own impedance.
 class PulseThroughDashpots {
  public:
-  PulseThroughDashpots(double spacing_m, const Tiling& tiling) : scene_(scene_of(spacing_m, tiling)) {
+  PulseThroughDashpots(double spacing_m, const Tiling& tiling)
+      : scene_(channel(2 * plane_m, spacing_m, tiling)) {
     sweeps_.use(&dashpots_);
     StepBuilder<2, double> builder{scene_, domain_, state_, dt_s_};
     step_ = std::make_unique<TimeStep<2, double>>(builder.time_step(sweeps_, effects_, {&record_}, steps()));
@@ -215,18 +220,8 @@ class PulseThroughDashpots {
   const std::vector<double>& velocities() const { return record_.velocities; }
 
  private:
-  static constexpr double from_m = 240, plane_m = 480, length_m = 960, vs = 1700, rho = 2300;
+  static constexpr double from_m = 240, plane_m = 480;
   static double pulse(double x) { return std::exp(-x * x / (40. * 40.)); }
-  static Scene<2> scene_of(double spacing_m, const Tiling& tiling) {
-    Scene<2> scene;
-    scene.model.medium = Medium<2>(Grid<2>{{std::llround(length_m / spacing_m), 12}, spacing_m, {0, 0}});
-    for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
-      put(scene.model.medium, cell, {vp, vs, rho});
-    scene.edges[0] = {EdgeLaw::rigid, EdgeLaw::rigid};
-    scene.edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
-    scene.numerics.tiling = tiling;
-    return scene;
-  }
   /// Faces that a treatment changes are told to the domain, so that they are solved in uniform rock, too.
   static Domain<2> domain_of(const Scene<2>& scene, std::int64_t column) {
     auto domain = make_domain(scene.model.medium, scene.edges, 0);
