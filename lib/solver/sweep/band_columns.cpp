@@ -31,55 +31,56 @@ double lagrange(const std::vector<int>& offsets, std::size_t of, double place) {
   return weight;
 }
 
-/// Taps [narrow column][offset] of (B1), as far as any is above `least`: the symbols of the interpolation
-/// over the root of their mean square, back in columns by sums over `samples` wave numbers, which is more
-/// than taps reach.
-std::vector<std::vector<double>> isometric_taps(int ratio, double least) {
-  constexpr int samples = 512;
-  const int points = points_of(ratio);
-  std::vector<std::vector<double>> all(std::size_t(ratio), std::vector<double>(samples, 0));
-  for (int k = 0; k < samples; ++k) {
-    const double theta = 2 * std::numbers::pi * k / samples;
-    std::vector<std::array<double, 2>> symbols;
-    double squares = 0;
-    for (int n = 0; n < ratio; ++n) {
-      const double place = (n + 0.5) / ratio - 0.5;
-      const auto offsets = offsets_of(points, place);
-      std::array<double, 2> sum{};
-      for (std::size_t of = 0; of < offsets.size(); ++of) {
-        const double weight = lagrange(offsets, of, place);
-        sum[0] += weight * std::cos(theta * offsets[of]), sum[1] += weight * std::sin(theta * offsets[of]);
-      }
-      symbols.push_back(sum);
-      squares += (sum[0] * sum[0] + sum[1] * sum[1]) / ratio;
-    }
-    for (int n = 0; n < ratio; ++n)
-      for (std::size_t at = 0; at < samples; ++at) {
-        const double turn = theta * (double(at) - samples / 2.);
-        all[std::size_t(n)][at] +=
-            (symbols[std::size_t(n)][0] * std::cos(turn) + symbols[std::size_t(n)][1] * std::sin(turn)) /
-            (std::sqrt(squares) * samples);
-      }
+/// Taps [narrow column][offset] of the interpolation that (B1) begins with, at offsets as far as any reaches
+/// on either side.
+std::vector<std::vector<double>> interpolation_taps(int ratio) {
+  std::vector<std::vector<double>> all;
+  const int points = points_of(ratio), reach = points / 2;
+  for (int n = 0; n < ratio; ++n) {
+    const double place = (n + 0.5) / ratio - 0.5;
+    const auto offsets = offsets_of(points, place);
+    auto& taps = all.emplace_back(std::size_t(2 * reach + 1), 0.);
+    for (std::size_t of = 0; of < offsets.size(); ++of)
+      taps[std::size_t(offsets[of] + reach)] = lagrange(offsets, of, place);
   }
-  std::size_t reach = 0;
-  for (const auto& taps : all)
-    for (std::size_t n = 0; n < taps.size(); ++n)
-      if (std::abs(taps[n]) > least)
-        reach = std::max(reach, n > samples / 2 ? n - samples / 2 : samples / 2 - n);
-  for (auto& taps : all)
-    taps = {taps.begin() + std::ptrdiff_t(samples / 2 - reach),
-            taps.begin() + std::ptrdiff_t(samples / 2 + reach + 1)};
   return all;
 }
+
+/// Taps from offset 0 on of the symmetric filter of wide columns in (B1), one over the root of the mean
+/// square of the symbols of these taps, as far as any is above `least`: sums over `samples` wave numbers,
+/// which is more than taps reach.
+std::vector<double> isometric_taps(const std::vector<std::vector<double>>& interpolation, double least) {
+  constexpr int samples = 512;
+  std::vector<double> taps(samples / 2, 0.);
+  for (int k = 0; k < samples; ++k) {
+    const double theta = 2 * std::numbers::pi * k / samples;
+    double squares = 0;
+    for (const auto& of : interpolation) {
+      double real = 0, imaginary = 0;
+      for (std::size_t n = 0; n < of.size(); ++n)
+        real += of[n] * std::cos(theta * double(n)), imaginary += of[n] * std::sin(theta * double(n));
+      squares += (real * real + imaginary * imaginary) / double(interpolation.size());
+    }
+    for (std::size_t at = 0; at < taps.size(); ++at)
+      taps[at] += std::cos(theta * double(at)) / (std::sqrt(squares) * samples);
+  }
+  while (std::abs(taps.back()) <= least) taps.pop_back();
+  return taps;
+}
+
+/// Values that are summed at a time: they stay in the first cache.
+constexpr std::size_t summed_at_once = 1024;
 
 }  // namespace
 
 template <class Real>
 BandColumns<Real>::BandColumns(int ratio, std::int64_t wide) : ratio_(ratio), wide_(wide) {
+  const auto interpolation = interpolation_taps(ratio);
+  for (const auto& taps : interpolation) interpolation_.emplace_back(taps.begin(), taps.end());
   // What rounding hides is left out.
-  for (const auto& taps : isometric_taps(ratio, std::numeric_limits<Real>::epsilon()))
-    taps_.emplace_back(taps.begin(), taps.end());
-  reach_ = std::int64_t(taps_.front().size()) / 2;
+  const auto taps = isometric_taps(interpolation, std::numeric_limits<Real>::epsilon());
+  isometry_.assign(taps.begin(), taps.end());
+  reach_ = std::max(std::ssize(isometry_) - 1, std::ssize(interpolation_.front()) / 2);
 }
 
 /// Room for rows of so many lanes, each column of all lanes after the other.
@@ -109,10 +110,16 @@ void BandColumns<Real>::to_narrow(const Real* from, std::int64_t stride_from, Re
   make_room(1, lanes);
   for (std::int64_t i = 0; i < wide_; ++i) std::copy_n(from + i * stride_from, lanes, part(0) + i * lanes);
   extend(1, images);
+  sum_isometry();
+  std::copy(sums_.begin(), sums_.end(), part(0));
+  extend(1, images);
   for (int n = 0; n < ratio_; ++n) {
-    std::fill(sums_.begin(), sums_.end(), Real(0));
-    for (std::int64_t o = -reach_; o <= reach_; ++o)
-      add(taps_[std::size_t(n)][std::size_t(o + reach_)], part(0) + o * lanes);
+    sum([&](std::size_t first, std::size_t last) {
+      const auto& taps = interpolation_[std::size_t(n)];
+      const auto middle = std::ssize(taps) / 2;
+      for (auto o = -middle; o <= middle; ++o)
+        add(taps[std::size_t(o + middle)], part(0) + o * lanes, first, last);
+    });
     for (std::int64_t i = 0; i < wide_; ++i)
       std::copy_n(sums_.data() + i * lanes, lanes, to + (i * ratio_ + n) * stride_to);
   }
@@ -126,16 +133,47 @@ void BandColumns<Real>::to_wide(const Real* from, std::int64_t stride_from, Real
     for (std::int64_t i = 0; i < wide_; ++i)
       std::copy_n(from + (i * ratio_ + n) * stride_from, lanes, part(n) + i * lanes);
   extend(ratio_, images);
-  std::fill(sums_.begin(), sums_.end(), Real(0));
-  for (int n = 0; n < ratio_; ++n)
-    for (std::int64_t o = -reach_; o <= reach_; ++o)
-      add(taps_[std::size_t(n)][std::size_t(o + reach_)] / Real(ratio_), part(n) - o * lanes);
+  sum([&](std::size_t first, std::size_t last) {
+    for (int n = 0; n < ratio_; ++n) {
+      const auto& taps = interpolation_[std::size_t(n)];
+      const auto middle = std::ssize(taps) / 2;
+      for (auto o = -middle; o <= middle; ++o)
+        add(taps[std::size_t(o + middle)] / Real(ratio_), part(n) - o * lanes, first, last);
+    }
+  });
+  std::copy(sums_.begin(), sums_.end(), part(0));
+  extend(1, images);
+  sum_isometry();
   for (std::int64_t i = 0; i < wide_; ++i) std::copy_n(sums_.data() + i * lanes, lanes, to + i * stride_to);
 }
 
+/// Fills sums_: `add_all` adds to the range that it is given.
 template <class Real>
-void BandColumns<Real>::add(Real tap, const Real* beside) {
-  for (std::size_t n = 0; n < sums_.size(); ++n) sums_[n] += tap * beside[n];
+template <class Add>
+void BandColumns<Real>::sum(Add&& add_all) {
+  for (std::size_t first = 0; first < sums_.size(); first += summed_at_once) {
+    const auto last = std::min(first + summed_at_once, sums_.size());
+    std::fill(sums_.begin() + std::ptrdiff_t(first), sums_.begin() + std::ptrdiff_t(last), Real(0));
+    add_all(first, last);
+  }
+}
+
+template <class Real>
+void BandColumns<Real>::sum_isometry() {
+  sum([&](std::size_t first, std::size_t last) {
+    add(isometry_[0], part(0), first, last);
+    for (std::int64_t o = 1; o < std::ssize(isometry_); ++o) {
+      const Real *const one = part(0) - o * lanes_, *const other = part(0) + o * lanes_;
+      const Real tap = isometry_[std::size_t(o)];
+      for (auto n = first; n < last; ++n) sums_[n] += tap * (one[n] + other[n]);
+    }
+  });
+}
+
+template <class Real>
+void BandColumns<Real>::add(Real tap, const Real* beside, std::size_t first, std::size_t last) {
+  if (tap == 0) return;
+  for (auto n = first; n < last; ++n) sums_[n] += tap * beside[n];
 }
 
 template <int D>

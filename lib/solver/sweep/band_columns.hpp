@@ -28,22 +28,23 @@ class BandColumns {
   /// (B3), its transpose over the ratio.
   void to_wide(const Real* from, std::int64_t stride_from, Real* to, std::int64_t stride_to,
                std::int64_t lanes, const Images& images);
-  /// Taps of the narrow column n, 0 <= n < ratio, of each wide one: weights of the wide columns from -reach()
-  /// to reach() beside it.
-  const std::vector<Real>& taps(int n) const { return taps_[std::size_t(n)]; }
-  std::int64_t reach() const { return reach_; }
 
  private:
-  /// Columns from -reach to wide + reach, all lanes of each, of the parts that rows are taken apart into:
+  /// Columns from -reach_ to wide + reach_, all lanes of each, of the parts that rows are taken apart into:
   /// every ratio-th narrow column from n on, or wide columns. This is column 0.
   Real* part(int n) { return parts_.data() + (std::int64_t(n) * (wide_ + 2 * reach_) + reach_) * lanes_; }
   void make_room(int parts, std::int64_t lanes);
   void extend(int parts, const Images& images);
-  void add(Real tap, const Real* beside);
+  template <class Add>
+  void sum(Add&& add_all);
+  void sum_isometry();
+  void add(Real tap, const Real* beside, std::size_t first, std::size_t last);
 
   int ratio_;
   std::int64_t wide_, reach_, lanes_ = 1;
-  std::vector<std::vector<Real>> taps_;
+  // Of (B1): [narrow column][offset], the middle one is offset 0; and from offset 0 on, of wide columns.
+  std::vector<std::vector<Real>> interpolation_;
+  std::vector<Real> isometry_;
   std::vector<Real> parts_, sums_;
 };
 
