@@ -517,6 +517,22 @@ Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, cons
   return fit;
 }
 
+namespace {
+
+/// Makes all cells of a line along x as those of another.
+template <int D>
+void copy_line(Medium<D>& medium, std::int64_t from, std::int64_t to) {
+  const auto& grid = medium.grid();
+  const std::int64_t nx = grid.shape[0], lines = lines_of(grid);
+  for (const Property property : medium.properties()) {
+    float* const values = medium[property].data();
+    for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row)
+      std::copy_n(values + (row * lines + from) * nx, nx, values + (row * lines + to) * nx);
+  }
+}
+
+}  // namespace
+
 template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, Average average,
                          const std::vector<std::int64_t>& rows) {
@@ -532,9 +548,14 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
   const Pile<D> pile(grid, layers, rows);
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);
+  const bool level = !grid.rows || !grid.rows->first_curvilinear_row();
   LineOfTops over;
   std::vector<Cut3D> cuts(layers.size());
   for (std::int64_t line = 0; line < lines; ++line) {
+    if (line >= different && level) {
+      copy_line(medium, line - 1, line);
+      continue;
+    }
     if (line < different) over = tops_of_line(grid, layers, line);
     for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
       for (std::int64_t n = 0; n < columns; ++n) {

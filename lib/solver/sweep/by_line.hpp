@@ -28,6 +28,8 @@ struct ByLine {
   std::int64_t from(std::int64_t line, std::int64_t x) const {
     const auto begin = cells.begin(), of_line = begin + first[std::size_t(line)];
     if (x <= 0) return of_line - begin;
+    // Where all columns before this one have a cell, which is common, no search is needed.
+    if (x < begin + end(line) - of_line && of_line[x].x == x) return of_line + x - begin;
     return std::lower_bound(of_line, begin + end(line), x,
                             [](const Cell& one, std::int64_t column) { return one.x < column; }) -
            begin;

@@ -228,6 +228,10 @@ class InterfaceStencils {
   bool any(std::int64_t line, const IndexRange& columns) const {
     return !list_.empty(line) && !list_.in(line, columns).empty();
   }
+  /// Whether it corrects all of these columns.
+  bool all(std::int64_t line, const IndexRange& columns) const {
+    return !list_.empty(line) && list_.in(line, columns).count() == columns.count();
+  }
   /// Overwrites up and down for the listed cells of these columns of a row. All pointers begin with the
   /// first. `metric`: of a curvilinear row.
   template <class Real>
