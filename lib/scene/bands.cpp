@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "base/parse.hpp"
+#include "build/model_in_cells.hpp"
 #include "model/split_faces.hpp"
 #include "rock/coefficients.hpp"
 #include "rock/tilted_mean.hpp"
@@ -136,23 +137,14 @@ std::int64_t face_of_band(const Scene<D>& scene, double depth_m, const RowsBesid
   return face;
 }
 
-/// Absorbing zones are as wide in all bands, in whole cells of the widest: as many of those as without bands,
-/// or the width that is given.
-template <int D>
-std::int64_t zone_of_widest(const Scene<D>& scene, double widest_m) {
-  const std::int64_t cells = zone_cells(scene, scene.survey.sources.front());
-  if (scene.numerics.zone_cells == 0) return cells;
-  return std::int64_t(std::ceil(double(cells) * scene.model.grid().spacing_m / widest_m * (1 - rounding)));
-}
-
 /// The model in the cells of each band.
 template <int D>
-std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene) {
+std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene, const ModelInCells<D>& models) {
   const auto& bands = scene.numerics.bands;
   const auto beside = rows_beside_band(scene.numerics.order);
   std::vector<InCells<D>> all;
   for (const auto& band : bands) {
-    all.push_back({in_cells_of(scene, band.spacing_m)});
+    all.push_back({in_cells_of(scene, models, band.spacing_m)});
     all.back().last = all.back().grid().shape[D - 1];
   }
   for (std::size_t n = 1; n < all.size(); ++n) {
@@ -354,14 +346,40 @@ Subdomain of_whole(const std::vector<InCells<D>>& all) {
   return whole;
 }
 
-/// The time step at which no wave of any band crosses more than its share of a cell, s.
+/// The time step at which no wave of a band crosses more than its share of a cell, s.
+template <int D>
+double time_step_of(const InCells<D>& band) {
+  const auto rows = rows_of(band.scene.model.medium, band.first, band.last);
+  return band.scene.numerics.cfl * band.grid().spacing_m / fastest_across_cells(rows);
+}
+
+/// The smallest of these.
 template <int D>
 double time_step_of_bands(const std::vector<InCells<D>>& all) {
   double step_s = std::numeric_limits<double>::infinity();
-  for (const auto& each : all)
-    step_s = std::min(step_s, each.grid().spacing_m / fastest_across_cells(rows_of(each.scene.model.medium,
-                                                                                   each.first, each.last)));
-  return all.front().scene.numerics.cfl * step_s;
+  for (const auto& each : all) step_s = std::min(step_s, time_step_of(each));
+  return step_s;
+}
+
+/// Cells of an absorbing zone from which on its damping is resolved well enough: that many send back as much
+/// at half the usual time step as 20 do at the usual one (theory/sources.md).
+constexpr std::int64_t fewest_zone_cells = 12;
+
+/// Absorbing zones are as wide in all bands, in whole cells of the widest: the width that is given, or as
+/// many cells as without bands. What a zone sends back falls with the square of its damping times the time
+/// step (theory.md (E14b)), so where that is less than these cells allow fewer of them do.
+template <int D>
+std::int64_t zone_of_widest(const Scene<D>& scene, const std::vector<InCells<D>>& all) {
+  const auto wider = [](const InCells<D>& one, const InCells<D>& other) {
+    return one.grid().spacing_m < other.grid().spacing_m;
+  };
+  const auto& widest = *std::max_element(all.begin(), all.end(), wider);
+  const auto cells = double(zone_cells(scene, scene.survey.sources.front()));
+  if (scene.numerics.zone_cells > 0)
+    return std::int64_t(
+        std::ceil(cells * scene.model.grid().spacing_m / widest.grid().spacing_m * (1 - rounding)));
+  const double share = time_step_of_bands(all) / time_step_of(widest);
+  return std::max(fewest_zone_cells, std::int64_t(std::ceil(cells * share)));
 }
 
 /// By row, the slowest wave of that row and all below, m/s.
@@ -449,11 +467,11 @@ std::vector<Band> resized(std::vector<Band> bands, double ratio) {
 template <int D>
 std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   check_bands(scene);
-  auto all = in_cells_of_bands(scene);
+  const auto all = in_cells_of_bands(scene, ModelInCells<D>(scene.model, scene.attenuation));
   const auto whole = of_whole(all);
   const auto beside = rows_beside_band(scene.numerics.order);
   const double step_s = time_step_of_bands(all), largest = largest_cell_m(scene.numerics.bands);
-  const auto zone = zone_of_widest(scene, largest);
+  const auto zone = zone_of_widest(scene, all);
   const auto widest = columns_of_widest(scene, largest);
   std::vector<Scene<D>> scenes;
   for (std::size_t n = 0; n < all.size(); ++n) {
@@ -461,8 +479,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
     const auto times = whole_cells(largest, scene.numerics.bands[n].spacing_m);
     auto columns = widest;
     for (auto& count : columns) count *= times;
-    Scene<D> band = scene;
-    band.model = model_of_rows(all[n], rows, columns);
+    auto band = with_model(scene, model_of_rows(all[n], rows, columns));
     band.subdomain = whole;
     band.subdomain.rows = std::int64_t(rows.size());
     band.subdomain.first = n > 0 ? beside : 0;
@@ -473,7 +490,6 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
     band.subdomain.side_speeds = side_speeds(band.model.medium, Subdomain{});
     band.numerics.time_step_s = step_s;
     band.numerics.zone_cells = int(zone * times);
-    band.numerics.tiling.plain = true;
     band.numerics.bands.clear();
     scenes.push_back(std::move(band));
   }
@@ -485,7 +501,7 @@ template <int D>
 double cost_of_bands(const Scene<D>& scene, const std::vector<InCells<D>>& all) {
   double widest = 0, cells = 0;
   for (const auto& each : all) widest = std::max(widest, each.grid().spacing_m);
-  const double zone_m = double(zone_of_widest(scene, widest)) * widest;
+  const double zone_m = double(zone_of_widest(scene, all)) * widest;
   for (std::size_t n = 0; n < all.size(); ++n) {
     const double spacing = all[n].grid().spacing_m;
     const auto zones = [&](int axis, int side) {
@@ -508,10 +524,11 @@ ChosenBands bands_for(const Scene<D>& scene) {
   Scene<D> banded = scene;
   auto& bands = banded.numerics.bands;
   bands = {{0, grid.spacing_m}};
+  const ModelInCells<D> models(scene.model, scene.attenuation);
   std::map<double, Scene<D>> in_cells;
   const auto fits = [&](double from_m, double cell_m, const RowsBeside& rows) {
     auto found = in_cells.find(cell_m);
-    if (found == in_cells.end()) found = in_cells.emplace(cell_m, in_cells_of(scene, cell_m)).first;
+    if (found == in_cells.end()) found = in_cells.emplace(cell_m, in_cells_of(scene, models, cell_m)).first;
     try {
       return face_of_band(found->second, from_m, rows) + rows.last <= found->second.model.grid().shape[D - 1];
     } catch (const Error&) {
@@ -542,7 +559,7 @@ ChosenBands bands_for(const Scene<D>& scene) {
   for (; bands.size() > 1; bands.pop_back()) try {
       check_bands(banded);
       columns_of_widest(banded, largest_cell_m(bands));
-      const double share = cost_of_bands(scene, in_cells_of_bands(banded)) / whole;
+      const double share = cost_of_bands(scene, in_cells_of_bands(banded, models)) / whole;
       if (share <= 0.5 && share < best.share) best = {bands, share};
     } catch (const Error&) {  // the scene does not go with these
     }

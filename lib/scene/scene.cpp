@@ -185,9 +185,14 @@ bool Scene<D>::attenuates() const {
 }
 
 template <int D>
-Scene<D> in_cells_of(const Scene<D>& scene, double spacing_m) {
-  Scene<D> changed = scene;
-  changed.model = in_cells_of(scene.model, spacing_m, scene.attenuation);
+Scene<D> with_model(const Scene<D>& scene, Model<D> model) {
+  return {std::move(model), scene.subdomain,        scene.survey,    scene.edges,      scene.numerics,
+          scene.recording,  scene.snapshot_every_s, scene.with_slip, scene.slip_diary, scene.attenuation};
+}
+
+template <int D>
+Scene<D> in_cells_of(const Scene<D>& scene, const ModelInCells<D>& models, double spacing_m) {
+  auto changed = with_model(scene, models.of(spacing_m));
   if (auto& step_s = changed.numerics.time_step_s) *step_s *= spacing_m / scene.model.grid().spacing_m;
   return changed;
 }
@@ -365,8 +370,9 @@ double highest_frequency_hz(const Survey<D>& survey) {
 }
 
 SLIPWAVE_INSTANTIATE_D(TYPE, struct Scene);
-template Scene<2> in_cells_of(const Scene<2>&, double);
-template Scene<3> in_cells_of(const Scene<3>&, double);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, with_model);
+template Scene<2> in_cells_of(const Scene<2>&, const ModelInCells<2>&, double);
+template Scene<3> in_cells_of(const Scene<3>&, const ModelInCells<3>&, double);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, set_attenuation);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, stable_time_step_s);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, time_step_s);

@@ -88,11 +88,18 @@ struct Scene {
   bool slips() const;
 };
 
+template <int D>
+class ModelInCells;
+
+/// Returns the same scene over another model.
+template <int D>
+Scene<D> with_model(const Scene<D>& scene, Model<D> model);
+
 /// A scene in cells of another size, whatever that is: its model is made anew as by ModelInCells,
 /// the unrelaxed one where the scene attenuates, and a time step given in seconds keeps its Courant number;
-/// everything else stays. Of a whole model (Subdomain). Throws as that.
+/// everything else stays. Of a whole model (Subdomain). Throws as that. `models` are of its own.
 template <int D>
-Scene<D> in_cells_of(const Scene<D>& scene, double spacing_m);
+Scene<D> in_cells_of(const Scene<D>& scene, const ModelInCells<D>& models, double spacing_m);
 
 /// How attenuation is wanted; what is not said follows from the wavelets.
 struct AttenuationChoice {
