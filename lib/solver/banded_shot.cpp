@@ -6,15 +6,24 @@
 
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
+#include "parallel/threads.hpp"
 #include "scene/bands.hpp"
 #include "scene/empty_gather.hpp"
 #include "scene/surroundings.hpp"
 
 namespace slipwave::solver {
+namespace {
+
+/// Up to so many threads tiles take less time than sweeps of whole grids, though the threads are left idle:
+/// tiles of bands wait for each other (tests/bench/bands).
+constexpr int most_threads_for_tiles = 2;
+
+}  // namespace
 
 template <int D, class Real>
 BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink)
     : scene_(&scene), shot_(shot), sink_(sink), scenes_(scenes_of_bands(scene)) {
+  for (auto& band : scenes_) band.numerics.tiling.plain |= parallel_threads() > most_threads_for_tiles;
   // The bands record snapshots, which are put together here.
   const auto nowhere = sink ? SnapshotSink<D>([](double, const FieldReader<D>&) {}) : SnapshotSink<D>();
   const auto all = in_all_bands(scenes_, shot);
@@ -37,14 +46,14 @@ BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const S
 template <int D, class Real>
 void BandedShot<D, Real>::run_to(std::int64_t last, const Progress& progress,
                                  const std::function<bool()>& pause) {
-  if (done() == 0 && last > 0)
-    for (auto& part : parts_) part->plain().start();
   for (auto n = done(); n < last; ++n) {
     if (pause && pause()) return;
     const StepTime time{n, parts_.front()->time_step().dt_s()};
     bool snapshot = false;
     for (auto& part : parts_) snapshot = sink_ && part->prepare_snapshot(n, n + 1);
-    make_step(time);
+    const auto& sweeps = parts_.front()->time_step().sweeps();
+    for (std::size_t k = 1; k + 1 < sweeps.size(); ++k)
+      if (sweeps[k].axis == D - 1) run_from({n, k});
     for (auto& part : parts_) part->made(n + 1);
     if (snapshot) {
       sink_(time.end_s(), [this](const FieldKey& key) { return whole_field(key); });
@@ -91,25 +100,28 @@ void BandedShot<D, Real>::check_stability() const {
     }
 }
 
+/// A sweep along the last axis in all bands, and what follows it before the next.
 template <int D, class Real>
-void BandedShot<D, Real>::make_step(const StepTime& time) {
-  const auto& sweeps = parts_.front()->time_step().sweeps();
-  for (auto& part : parts_) part->plain().begin(time);
-  for (std::size_t k = 1; k + 1 < sweeps.size(); ++k)
-    if (sweeps[k].axis == D - 1)
-      sweep_across(k, time);
-    else
-      for (auto& part : parts_) part->plain().sweep(k, time);
-  for (auto& part : parts_) part->plain().end(time);
-}
-
-template <int D, class Real>
-void BandedShot<D, Real>::sweep_across(std::size_t number, const StepTime& time) {
-  for (auto& face : faces_) face.fill_rows();
+void BandedShot<D, Real>::run_from(const SweepTime& across) {
+  for (std::size_t n = 0; n < faces_.size(); ++n) {
+    faces_[n].fill_rows();
+    for (const auto side : {n, n + 1}) {
+      const auto own = parts_[side]->domain().own,
+                 rows = IndexRange{0, parts_[side]->domain().grid.shape[D - 1]};
+      parts_[side]->executor().rows_changed(side == n ? IndexRange{own.last, rows.last}
+                                                      : IndexRange{rows.first, own.first});
+    }
+  }
   for (const auto band : narrow_first_) {
-    parts_[band]->plain().sweep(number, time);
-    for (auto& face : faces_)
-      if (face.is_narrow(parts_[band]->state())) face.give_states();
+    parts_[band]->executor().run_from(across);
+    for (std::size_t n = 0; n < faces_.size(); ++n) {
+      if (!faces_[n].is_narrow(parts_[band]->state())) continue;
+      faces_[n].give_states();
+      const auto other = n == band ? n + 1 : n;
+      const auto own = parts_[other]->domain().own;
+      parts_[other]->executor().rows_changed(other == n ? IndexRange{own.last - 1, own.last}
+                                                        : IndexRange{own.first, own.first + 1});
+    }
   }
 }
 

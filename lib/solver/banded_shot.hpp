@@ -40,10 +40,9 @@ class BandedShot {
  private:
   template <class Of>
   std::int64_t sum_of_parts(Of&& of) const;
-  void make_step(const StepTime& time);
+  void run_from(const SweepTime& across);
   void check_stability() const;
   Field<D> whole_field(const FieldKey& key) const;
-  void sweep_across(std::size_t number, const StepTime& time);
 
   const Scene<D>* scene_;
   std::size_t shot_;

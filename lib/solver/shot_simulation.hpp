@@ -11,7 +11,9 @@
 #include "solver/record/recorder.hpp"
 #include "solver/record/snapshot_recorder.hpp"
 #include "solver/record/stability_check.hpp"
-#include "solver/schedule/plain.hpp"
+#include "solver/schedule/executor.hpp"
+#include "solver/schedule/halo.hpp"
+#include "solver/schedule/time_step.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -56,10 +58,10 @@ class ShotSimulation {
   ShotReport report() const;
   const Domain<D>& domain() const { return domain_; }
   const Sweeps<D, Real>& sweeps() const { return sweeps_; }
-  // For steps that are made together with those of other grids, by a plain executor.
+  // For steps that are made together with those of other grids.
   Sweeps<D, Real>& sweeps() { return sweeps_; }
   State<D, Real>& state() { return state_; }
-  PlainExecutor<D, Real>& plain() { return dynamic_cast<PlainExecutor<D, Real>&>(*executor_); }
+  Executor& executor() { return *executor_; }
   void made(std::int64_t steps) { done_ = steps; }
   /// Whether a snapshot is due at the end of a step first <= n < last, which then is taken: local_field()
   /// has it until release_snapshot().

@@ -17,8 +17,7 @@ std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value)
 }  // namespace
 
 template <int D, class Real>
-void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns,
-                                const SplitFaces<D, Real>* faces) {
+void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns, const Sweeps<D, Real>& sweeps) {
   using Bits = decltype(bits_of(Real()));
   char* const active = active_.data() + line * blocks_;
   const std::int64_t first = columns.first / block,
@@ -34,7 +33,7 @@ void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns,
       const Real* const cells = fields + row * state_.layout.row_pitch() + n * block;
       for (std::int64_t i = 0; i < count; ++i) any |= Bits(bits_of(cells[i]) << 1);  // all but the signs
     }
-    active[n] = any != 0 || (faces && !faces->at_rest(line, {n * block, n * block + count}));
+    active[n] = any != 0 || !sweeps.faces_at_rest(line, {n * block, n * block + count});
     if (active[n]) lines_[std::size_t(line)].add({std::int32_t(n), std::int32_t(n + 1)});
   }
 }

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "solver/sweep/split_faces.hpp"
-#include "solver/sweep/state.hpp"
+#include "solver/sweep/sweeps.hpp"
 
 namespace slipwave::solver {
 
@@ -31,9 +30,9 @@ class ActiveCells {
     return {std::max<std::int64_t>(all.first, std::max<std::int64_t>(columns.first, 0) / block) * block,
             std::min<std::int64_t>(all.last, (columns.last + block - 1) / block) * block};
   }
-  /// Marks those blocks of these columns that are no longer zero, or where what `faces` retain is not (null:
-  /// there are none): a traction may be left where all motion is too small for a number.
-  void mark(std::int64_t line, const IndexRange& columns, const SplitFaces<D, Real>* faces);
+  /// Marks those blocks of these columns that are no longer zero, or whose faces are not at rest: a traction
+  /// may be left where all motion is too small for a number, and a neighbour may give a state.
+  void mark(std::int64_t line, const IndexRange& columns, const Sweeps<D, Real>& sweeps);
   std::int64_t memory_bytes() const { return bytes_of(active_) + bytes_of(lines_); }
   void serialize(Archive& archive);
 

@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "base/archive.hpp"
+#include "solver/kernels/kernels.hpp"
+#include "solver/sweep/sweep_filter.hpp"
 
 namespace slipwave::solver {
 
@@ -17,6 +19,12 @@ class Executor {
   /// the first step that was not made.
   virtual std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) = 0;
   std::int64_t run(std::int64_t first, std::int64_t last) { return run(first, last, {}); }
+  /// For grids that advance together (BandedShot), in place of run(): makes one sweep along the last axis and
+  /// all that follows before the next along that axis, which may be one of the next step. All fields must be
+  /// zero before the first step.
+  virtual void run_from(const SweepTime& across) = 0;
+  /// To be called when rows beside those that the grid owns have been set from outside.
+  virtual void rows_changed(const IndexRange&) {}
   /// To be called when fields have been set from outside.
   virtual void fields_changed() {}
   /// Writes or reads what it retains between two calls of run().

@@ -10,34 +10,35 @@
 namespace slipwave::solver {
 
 /// The reference: each entry of the time step on the whole grid, one entry after the other. Slow and short:
-/// run() and end_of_step() show what a time step is. One process only.
+/// run() and end() show what a time step is. One process only.
 template <int D, class Real>
 class PlainExecutor : public Executor {
  public:
   /// Keeps references.
   PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step);
   using Executor::run;
-  // What run() is made of, for grids that advance together (BandedShot): the first half sweep of all; then of
-  // each step its beginning, its sweeps but the first and the last, and its end.
-  void start() { sweeps_.along(0, half_); }
-  void begin(const StepTime& time) { step_.begin(time); }
-  void sweep(std::size_t number, const StepTime& time);
-  void end(const StepTime& time);
   std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
+  void run_from(const SweepTime& across) override;
   void serialize(Archive& archive) override;
   std::int64_t swept_cells() const override { return swept_; }
 
  private:
+  /// What a thread works with: a row's copy as well.
+  struct Worker {
+    Workspace<Real> work;
+    Buffer<Real> copy;
+  };
+  void sweep(std::size_t number, const StepTime& time);
+  void end(const StepTime& time);
   void after_sweep(std::size_t sweep, const StepTime& time);
-  void split_row(const StepTime& time, std::int64_t row);
-  void merged_row(const StepTime& time, std::int64_t row);
+  void split_row(const StepTime& time, std::int64_t row, Worker& worker);
+  void merged_row(const StepTime& time, std::int64_t row, Worker& worker);
 
   Sweeps<D, Real>& sweeps_;
   State<D, Real>& state_;
   TimeStep<D, Real>& step_;
   Real half_;  // fraction of the half sweeps along x
-  Workspace<Real> work_;
-  Buffer<Real> copy_;
+  std::vector<Worker> workers_;
   std::int64_t copy_pitch_, swept_ = 0;
 };
 

@@ -53,9 +53,9 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       together_(D == 2 ? 1 : usual_planes),
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
-  const auto longest = stages(0, steps_per_tile_);
-  longest_ = longest.back().behind + surface_rows(0);
-  const auto [along_x, along_y, along_z] = counts(longest);
+  const auto longest_tile = stages(0, steps_per_tile_);
+  longest_ = longest(longest_tile);
+  const auto [along_x, along_y, along_z] = counts(longest_tile);
   // Rows that are sent to neighbours or refreshed are then not in use by the next tile or the one before.
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
@@ -66,17 +66,23 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
   for (auto& tile : in_progress_)
     for (std::int64_t n = 0; n < along_z * (D == 2 ? 1 : cut_cells_); ++n) tile.rings.push_back(ring(D - 1));
   std::int64_t widest = layout_.padded_nx();
-  if (D == 2) widest = std::min(stripe_width_ * 2 + longest.front().ahead, widest);
+  if (D == 2) widest = std::min(stripe_width_ * 2 + longest_tile.front().ahead, widest);
   for (int n = 0; n < parallel_workers(); ++n) {
     workers_.push_back(
         {sweeps.make_workspace(widest + 2 * Sweeps<D, Real>::lag),
          std::vector<StripeBoundary<Real>>(std::size_t(along_x * (D == 2 ? boundaries_per_sweep() : 1))),
          {},
-         std::vector<IndexRange>(2 * longest.size())});
+         std::vector<IndexRange>(2 * longest_tile.size())});
     for (std::int64_t m = 0; m < along_y * boundaries_per_sweep(); ++m)
       workers_.back().rings.push_back(ring(1));
   }
   if (!step_.patches().empty()) make_patch_memory();
+}
+
+/// Rows from the first to the last of these stages.
+template <int D, class Real>
+std::int64_t TiledExecutor<D, Real>::longest(const std::vector<Stage>& stages) const {
+  return stages.back().behind + surface_rows(0);
 }
 
 template <int D, class Real>
@@ -105,18 +111,27 @@ template <int D, class Real>
 auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const -> std::vector<Stage> {
   std::vector<Stage> all;
   // The last sweep of a step and the first of the next are alike: both belong to the end of a step.
-  const Real end = Real(step_.sweeps().front().fraction);
-  if (first == 0) all.push_back({Stage::along_x, end, {0, step_.dt_s()}});
-  for (std::int64_t step = first; step < last; ++step) {
-    for (std::size_t n = 1; n + 1 < step_.sweeps().size(); ++n) {
-      const int axis = step_.sweeps()[n].axis;
-      const auto kind = axis == 0 ? Stage::along_x : axis == D - 1 ? Stage::along_z : Stage::along_y;
-      all.push_back({kind, Real(step_.sweeps()[n].fraction), {step, step_.dt_s()}});
-      all.back().sweep = n;
-    }
-    all.push_back({Stage::end_of_step, end, {step, step_.dt_s()}});
-    all.back().sweep = step_.sweeps().size() - 1;
-  }
+  if (first == 0) all.push_back(stage_of({0, 0}));
+  for (std::int64_t step = first; step < last; ++step)
+    for (std::size_t n = 1; n < step_.sweeps().size(); ++n) all.push_back(stage_of({step, n}));
+  return arranged(std::move(all));
+}
+
+template <int D, class Real>
+auto TiledExecutor<D, Real>::stage_of(const SweepTime& sweep) const -> Stage {
+  const auto& [axis, fraction] = step_.sweeps()[sweep.sweep];
+  const auto kind = step_.is_last(sweep) ? Stage::end_of_step
+                    : axis == 0          ? Stage::along_x
+                    : axis == D - 1      ? Stage::along_z
+                                         : Stage::along_y;
+  Stage stage{kind, Real(fraction), {sweep.step, step_.dt_s()}};
+  stage.sweep = sweep.sweep;
+  return stage;
+}
+
+/// Gives each stage of a tile its distance from the first and the last one.
+template <int D, class Real>
+auto TiledExecutor<D, Real>::arranged(std::vector<Stage> all) const -> std::vector<Stage> {
   std::int64_t behind = 0, next_along_y = 0;
   int along_x = 0, along_y = 0, along_z = 0, ends = 0;
   for (auto& stage : all) {
@@ -214,10 +229,38 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
     }
     for (std::int64_t step = first; step < last; ++step) step_.begin({step, step_.dt_s()});
   }
+  run_band(tile, band, worker);
+  if (band + 1 == bands_)
+    for (std::int64_t step = first; step < last; ++step) step_.finish({step, step_.dt_s()});
+}
+
+/// Rows that other grids own are left alone, and all others affect what is recorded there.
+template <int D, class Real>
+void TiledExecutor<D, Real>::run_from(const SweepTime& across) {
+  const auto part = step_.from_across(across);
+  auto& tile = in_progress_.front();
+  tile.stages.clear();
+  for (const auto& sweep : part) {
+    step_.begin_once(sweep.step);
+    tile.stages.push_back(stage_of(sweep));
+    tile.stages.back().needed = {sweeps_.own_rows(), {0, cut_cells_}};
+  }
+  tile.stages = arranged(std::move(tile.stages));
+  for (auto& ring : tile.rings) ring.begin();
+  parallel_tiles(1, bands_, 1, [&](std::int64_t, std::int64_t band, int worker) {
+    run_band(tile, band, workers_[std::size_t(worker)]);
+  });
+  for (const auto& sweep : part)
+    if (step_.is_last(sweep)) step_.finish({sweep.step, step_.dt_s()});
+}
+
+/// Makes all stages of a tile on a band of rows.
+template <int D, class Real>
+void TiledExecutor<D, Real>::run_band(TileInProgress& tile, std::int64_t band, Worker& worker) {
   const bool ends = band + 1 == bands_;
   const IndexRange rows{band * band_rows_, ends ? rows_ + longest_ : (band + 1) * band_rows_};
   if (halo_)
-    for (const auto& refreshed : halo_->before(rows)) refresh(refreshed);
+    for (const auto& refreshed : halo_->before(rows)) rows_changed(refreshed);
   std::fill(worker.columns.begin(), worker.columns.end(), IndexRange{});
   for (std::int64_t stripe = 0; stripe < stripes(); ++stripe) {
     for (std::size_t n = 0; n < tile.stages.size(); ++n) {
@@ -229,13 +272,10 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
     run_stripe(tile, rows, worker);
   }
   if (halo_) halo_->after(rows.first - longest_, ends ? rows_ : rows.last - longest_);
-  if (ends)
-    for (std::int64_t step = first; step < last; ++step) step_.finish({step, step_.dt_s()});
 }
 
-/// Rows received from neighbours.
 template <int D, class Real>
-void TiledExecutor<D, Real>::refresh(const IndexRange& rows) {
+void TiledExecutor<D, Real>::rows_changed(const IndexRange& rows) {
   const auto lines_a_row = layout_.lines() / rows_;
   for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
     mark_active(line, whole_lines());
@@ -462,7 +502,7 @@ IndexRange TiledExecutor<D, Real>::reached(const StepTime& time, const IndexRang
 
 template <int D, class Real>
 void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& columns) {
-  if (!everywhere_) active_.mark(line, columns, sweeps_.split());
+  if (!everywhere_) active_.mark(line, columns, sweeps_);
 }
 
 /// Some steps of a sweep along z, of these columns or, in 3-D, lines.
@@ -471,7 +511,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
                                      TileInProgress& tile, Worker& worker) {
   constexpr auto lag = Sweeps<D, Real>::lag;
   const auto behind = sweeps_.rows_behind(), beside = D == 2 ? lag : free_surface_reach;
-  IndexRange needed{std::max<std::int64_t>(steps.first, 0), std::min(steps.last, rows_ + behind)};
+  auto needed = common(steps, sweeps_.steps_of_own_rows());
   const auto is_needed = [&](std::int64_t step) {
     return stage.needed.meets({step - behind, step + 1}, columns);
   };
@@ -528,7 +568,7 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::end_across_z(const Stage& stage, std::int64_t step, std::int64_t y,
                                           const IndexRange& cells, Worker& worker) {
   const std::int64_t done = step - sweeps_.rows_behind();
-  if (done < 0 || done >= rows_) return;
+  if (done < sweeps_.own_rows().first || done >= sweeps_.own_rows().last) return;
   const auto line = line_of(done, y);
   if (step_.acts_after_sweep(stage.sweep))
     step_.apply_after_sweep(stage.sweep, stage.time, state_.row_fields(line), cells);

@@ -43,6 +43,8 @@ class TiledExecutor : public Executor {
   using Executor::run;
   /// `pause` is called before each tile but the first.
   std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
+  void run_from(const SweepTime& across) override;
+  void rows_changed(const IndexRange& rows) override;
   void fields_changed() override;
   void serialize(Archive& archive) override { active_.serialize(archive); }
   std::int64_t memory_bytes() const override;
@@ -94,7 +96,11 @@ class TiledExecutor : public Executor {
   };
   static Counts counts(const std::vector<Stage>& stages);
   std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
+  Stage stage_of(const SweepTime& sweep) const;
+  std::vector<Stage> arranged(std::vector<Stage> stages) const;
+  std::int64_t longest(const std::vector<Stage>& stages) const;
   void run_band(std::int64_t tile, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
+  void run_band(TileInProgress& tile, std::int64_t band, Worker& worker);
   void look_ahead(const TileInProgress& tile, const IndexRange& planes, Worker& worker) const;
   void run_stripe(TileInProgress& tile, const IndexRange& rows, Worker& worker);
   void sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band, const IndexRange* columns,
@@ -110,7 +116,6 @@ class TiledExecutor : public Executor {
   template <class Reached, class Begin, class End>
   void march(int axis, const Index<D>& at, const IndexRange& steps, Real fraction, Ring<Real>& ring,
              Worker& worker, Reached&& reached, Begin&& begin, End&& end);
-  void refresh(const IndexRange& rows);
   IndexRange reached(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
                      const IndexRange& cells) const;
   void mark_active(std::int64_t line, const IndexRange& columns);

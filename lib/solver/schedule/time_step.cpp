@@ -62,7 +62,21 @@ std::vector<std::string> TimeStep<D, Real>::text() const {
 }
 
 template <int D, class Real>
+std::vector<SweepTime> TimeStep<D, Real>::from_across(const SweepTime& across) const {
+  std::vector<SweepTime> part = {across};
+  for (SweepTime next = across;;) {
+    if (is_last(next))
+      next = {next.step + 1, 1};
+    else
+      ++next.sweep;
+    if (next.step == steps_ || sweeps_[next.sweep].axis == D - 1) return part;
+    part.push_back(next);
+  }
+}
+
+template <int D, class Real>
 void TimeStep<D, Real>::begin(const StepTime& time) {
+  begun_ = time.step;
   auto& split = split_rows_[std::size_t(time.step % most_in_progress)];
   split.assign(std::size_t(rows_), 0);
   for (const auto row : patches_.whole_lines()) split[std::size_t(row)] = 1;

@@ -63,6 +63,14 @@ class TimeStep {
 
   /// Before the first row of a step, step after step.
   void begin(const StepTime& time);
+  /// Does nothing where that step has begun.
+  void begin_once(std::int64_t step) {
+    if (step > begun_) begin({step, dt_s_});
+  }
+  /// A sweep along the last axis and those that follow it before the next along that axis. The last of a step
+  /// stands for the end of it, the first of the next step included.
+  std::vector<SweepTime> from_across(const SweepTime& across) const;
+  bool is_last(const SweepTime& time) const { return time.sweep + 1 == sweeps_.size(); }
   /// Whether the half sweeps round the end of that step stay apart on all of a row.
   bool splits(const StepTime& time, std::int64_t row) const {
     return split_rows_[std::size_t(time.step % most_in_progress)][std::size_t(row)];
@@ -124,7 +132,7 @@ class TimeStep {
   std::vector<Record<D, Real>*> records_;
   Patches<D> patches_;
   bool all_needed_;
-  std::int64_t steps_;
+  std::int64_t steps_, begun_ = -1;
   const Progress* progress_ = nullptr;
   std::array<std::array<std::vector<Effect<D, Real>*>, 2>, 2> acting_;  // [after recording][Cells], in order
   std::array<std::vector<char>, std::size_t(most_in_progress)> split_rows_;  // [step in progress][row]

@@ -325,7 +325,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     Real* const down = outgoing.down(p);
     const Real* const v = fields + pair.v * pitch + columns.first;
     const Real* const s = fields + pair.s * pitch + columns.first;
-    reconstruct(p, whole, up, down);
+    // Between layers a few cells thick, interfaces leave nothing of a row.
+    if (!stencils_of(axis, p).all(number, whole)) reconstruct(p, whole, up, down);
     reconstruct(p, {whole.last, columns.last}, up, down);
     auto of_pair = material;
     if (p > 0) of_pair.zs = impedance_of(p, material);
@@ -594,10 +595,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
     return;
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
-  // Beyond its own rows a face that is shared needs the outgoing waves of one more.
-  const IndexRange steps =
-      axis == z_axis ? IndexRange{shared_[0] ? own_.first - 1 + reach_ : 0, own_.last + rows_behind()}
-                     : IndexRange{0, rows + rows_behind()};
+  const IndexRange steps = axis == z_axis ? steps_of_own_rows() : IndexRange{0, rows + rows_behind()};
   const IndexRange sheets = axis == z_axis ? IndexRange{0, lines / rows} : own_;
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (auto& surface : surfaces_[axis])
@@ -935,6 +933,24 @@ std::array<SharedFaces<Real>*, 2> Sweeps<D, Real>::share_faces(const Domain<D>& 
     shared_[std::size_t(side)] = std::make_unique<SharedFaces<Real>>(std::move(face));
   }
   return {shared_[0].get(), shared_[1].get()};
+}
+
+template <int D, class Real>
+bool Sweeps<D, Real>::faces_at_rest(std::int64_t line, const IndexRange& columns) const {
+  if (split_ && !split_->at_rest(line, columns)) return false;
+  for (const auto& face : shared_) {
+    if (!face || !face->given) continue;
+    const auto at = state_.layout.line_index(line);
+    const auto row = at[z_axis];
+    if (row != face->row && row + 1 != face->row) continue;
+    const Real* const values = std::as_const(*face).of_line(D == 3 ? at[1] : 0);
+    for (std::int64_t n = 0; n < face->rows; ++n) {
+      const Real* const states = values + n * face->pitch;
+      if (std::any_of(states + columns.first, states + columns.last, [](Real state) { return state != 0; }))
+        return false;
+    }
+  }
+  return true;
 }
 
 template <int D, class Real>

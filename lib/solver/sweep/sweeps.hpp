@@ -31,6 +31,7 @@ struct SharedFaces {
   std::int64_t rows = 0, pitch = 0;  // states a line, in the order of InterfaceStates; columns
   std::vector<Real> values{};        // [line along x][state][column]
   Real* of_line(std::int64_t line) { return values.data() + line * rows * pitch; }
+  const Real* of_line(std::int64_t line) const { return values.data() + line * rows * pitch; }
 };
 
 /// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
@@ -54,11 +55,19 @@ class Sweeps {
   void split_faces(const Domain<D>& domain, double dt_s, double unit);
   /// Null where there are none.
   SplitFaces<D, Real>* split() const { return split_.get(); }
-  /// From now on along() keeps to the rows of the last axis that the domain owns, and to what sweeps of them
-  /// read. Returns the faces to the grids above and below, where there are any, to be given where a neighbour
-  /// has more columns.
+  /// From now on own_rows() are those that the domain owns. Returns the faces to the grids above and below,
+  /// where there are any, to be given where a neighbour has more columns.
   std::array<SharedFaces<Real>*, 2> share_faces(const Domain<D>& domain);
-  /// Lines along x that along() sweeps.
+  /// Rows of the last axis that are swept: all, or those beside faces that are shared.
+  const IndexRange& own_rows() const { return own_; }
+  /// Steps of a sweep along the last axis that these rows need. Beyond them a face that is shared needs the
+  /// outgoing waves of one more.
+  IndexRange steps_of_own_rows() const {
+    return {shared_[0] ? own_.first - 1 + reach_ : 0, own_.last + rows_behind()};
+  }
+  /// Whether nothing that faces of a line have retained or are given is other than zero in these columns.
+  bool faces_at_rest(std::int64_t line, const IndexRange& columns) const;
+  /// Lines along x of own_rows().
   IndexRange own_lines() const {
     const auto of_row = state_.layout.lines() / state_.layout.shape()[z_axis];
     return {own_.first * of_row, own_.last * of_row};
