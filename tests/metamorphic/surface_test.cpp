@@ -139,6 +139,33 @@ TEST(SameGround, InStepsTurnedByARightAngleGivesTheSameTraces) {
   }
 }
 
+/// A slice one cell thick between mirrors stands for ground that goes on along y, and its point source for a
+/// line of them.
+TEST(SameGround, ThatGoesOnInSpaceGivesTheTracesOfALineSource) {
+  for (const unsigned seed : seeds()) {
+    auto scene = stepped(seed);
+    const bool explodes = seed % 2 == 0;
+    scene.survey.sources[0].mechanism = parse_mechanism<2>(explodes ? "explosion" : "force:0.4,1");
+    const auto& plane = scene.model.medium;
+    const auto& shape = plane.grid().shape;
+    Scene<3> slice;
+    auto& medium = slice.model.medium = Medium<3>(Grid<3>{{shape[0], 1, shape[1]}, 1, {0, 0, 0}});
+    for (const Property property : plane.properties())
+      std::copy(plane[property].begin(), plane[property].end(), medium[property].begin());
+    slice.edges[0] = scene.edges[0], slice.edges[2] = scene.edges[1];
+    slice.edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
+    slice.numerics = scene.numerics;
+    slice.recording = scene.recording;
+    const auto place = [](const Point<2>& at) { return Point<3>{at[0], 0.5, at[1]}; };
+    const auto& source = scene.survey.sources[0];
+    slice.survey.sources = {{place(source.position_m),
+                             parse_mechanism<3>(explodes ? "explosion" : "force:0.4,0,1"), source.wavelet,
+                             source.amplitude}};
+    for (const auto& at : scene.survey.receivers_m) slice.survey.receivers_m.push_back(place(at));
+    EXPECT_LT(difference(samples_of(shoot(slice, 1)), traces_of(scene)), rounding) << "seed " << seed;
+  }
+}
+
 TEST(SameGround, InSpaceAsEdgeAndBelowVoidGivesTheSameTraces) {
   for (const unsigned seed : seeds(1, 3))
     for (const int axis : {0, 1, 2}) {
