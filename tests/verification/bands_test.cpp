@@ -106,7 +106,7 @@ TEST(Bands, ReadAndMovePointsOnAndBesideAFaceOnce) {
 TEST(Bands, DifferLittleFromCellsOfOneSizeAtTheSameTimeStep) {
   for (const int time_order : {2, 4}) {
     auto stack = soft_ground();
-    stack.time_order = time_order, stack.duration_s = 0.3, stack.spacing_m = 1;
+    stack.time_order = time_order, stack.duration_s = 0.2, stack.spacing_m = 1;
     auto scene = stack.scene();
     const auto whole = shoot(scene, 1);
     scene.numerics.cfl /= 4;
@@ -275,9 +275,9 @@ TEST(Bands, GiveTheSameBitsPlainlyAndInTiles) {
 
 TEST(Bands, GiveTheSameBitsPlainlyAndInTilesInSpace) {
   auto scene = box_in_space();
-  expect_same_bits("rigid", scene, {{0, 3}, {72, 9}}, 0.03);
+  expect_same_bits("rigid", scene, {{0, 3}, {72, 9}}, 0.015);
   for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {EdgeLaw::free, EdgeLaw::absorbing};
-  expect_same_bits("free and absorbing", scene, {{0, 3}, {72, 6}}, 0.02);
+  expect_same_bits("free and absorbing", scene, {{0, 3}, {72, 6}}, 0.01);
 }
 
 TEST(Bands, GiveTheSameBitsWhateverTheThreads) {
