@@ -139,9 +139,9 @@ TEST(SameGround, InStepsTurnedByARightAngleGivesTheSameTraces) {
   }
 }
 
-/// A slice one cell thick between mirrors stands for ground that goes on along y, and its point source for a
+/// A slice one cell thick between mirrors stands for ground that continues along y, and its point source for a
 /// line of them.
-TEST(SameGround, ThatGoesOnInSpaceGivesTheTracesOfALineSource) {
+TEST(SameGround, ThatContinuesInSpaceGivesTheTracesOfALineSource) {
   for (const unsigned seed : seeds()) {
     auto scene = stepped(seed);
     const bool explodes = seed % 2 == 0;
