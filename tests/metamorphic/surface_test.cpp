@@ -139,8 +139,8 @@ TEST(SameGround, InStepsTurnedByARightAngleGivesTheSameTraces) {
   }
 }
 
-/// A slice one cell thick between mirrors stands for ground that continues along y, and its point source for a
-/// line of them.
+/// A slice one cell thick between mirrors stands for ground that continues along y, and its point source for
+/// a line of them.
 TEST(SameGround, ThatContinuesInSpaceGivesTheTracesOfALineSource) {
   for (const unsigned seed : seeds()) {
     auto scene = stepped(seed);
