@@ -75,6 +75,7 @@ class BandedBox {
         for (std::int64_t i = 0; i < domain.grid.shape[0]; ++i)
           fill(shot_.part(band).state(), medium, {i, k},
                [&] { return unit * std::uniform_real_distribution<double>(-1, 1)(engine); });
+      shot_.part(band).executor().fields_changed();
     }
   }
   void run(std::int64_t steps) { shot_.run_to(shot_.done() + steps); }

@@ -278,6 +278,10 @@ TEST(Bands, GiveTheSameBitsPlainlyAndInTilesInSpace) {
   expect_same_bits("rigid", scene, {{0, 3}, {72, 9}}, 0.015);
   for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {EdgeLaw::free, EdgeLaw::absorbing};
   expect_same_bits("free and absorbing", scene, {{0, 3}, {72, 6}}, 0.01);
+  scene = box_in_space();
+  scene.edges[1] = {EdgeLaw::free, EdgeLaw::free};
+  scene.numerics.tiling.steps = 1;
+  expect_same_bits("free along y, steps one by one", scene, {{0, 3}, {72, 6}}, 0.02);
 }
 
 TEST(Bands, GiveTheSameBitsWhateverTheThreads) {

@@ -55,6 +55,8 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       cut_cells_(layout_.shape()[D - 2]) {
   const auto longest_tile = stages(0, steps_per_tile_);
   longest_ = longest(longest_tile);
+  for (std::size_t n = 1; n < step.sweeps().size(); ++n)
+    if (step.sweeps()[n].axis == D - 1) longest_ = std::max(longest_, longest(stages_from({0, n})));
   const auto [along_x, along_y, along_z] = counts(longest_tile);
   // Rows that are sent to neighbours or refreshed are then not in use by the next tile or the one before.
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
@@ -82,7 +84,8 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
 /// Rows from the first to the last of these stages.
 template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::longest(const std::vector<Stage>& stages) const {
-  return stages.back().behind + surface_rows(0);
+  const auto& last = stages.back();
+  return last.behind + surface_rows(last.kind == Stage::along_y ? 1 : 0);
 }
 
 template <int D, class Real>
@@ -114,6 +117,18 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
   if (first == 0) all.push_back(stage_of({0, 0}));
   for (std::int64_t step = first; step < last; ++step)
     for (std::size_t n = 1; n < step_.sweeps().size(); ++n) all.push_back(stage_of({step, n}));
+  return arranged(std::move(all));
+}
+
+/// The stages of run_from(): rows that other grids own are left alone, and all others affect what is recorded
+/// there.
+template <int D, class Real>
+auto TiledExecutor<D, Real>::stages_from(const SweepTime& across) const -> std::vector<Stage> {
+  std::vector<Stage> all;
+  for (const auto& sweep : step_.from_across(across)) {
+    all.push_back(stage_of(sweep));
+    all.back().needed = {sweeps_.own_rows(), {0, cut_cells_}};
+  }
   return arranged(std::move(all));
 }
 
@@ -234,24 +249,17 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
     for (std::int64_t step = first; step < last; ++step) step_.finish({step, step_.dt_s()});
 }
 
-/// Rows that other grids own are left alone, and all others affect what is recorded there.
 template <int D, class Real>
 void TiledExecutor<D, Real>::run_from(const SweepTime& across) {
-  const auto part = step_.from_across(across);
   auto& tile = in_progress_.front();
-  tile.stages.clear();
-  for (const auto& sweep : part) {
-    step_.begin_once(sweep.step);
-    tile.stages.push_back(stage_of(sweep));
-    tile.stages.back().needed = {sweeps_.own_rows(), {0, cut_cells_}};
-  }
-  tile.stages = arranged(std::move(tile.stages));
+  tile.stages = stages_from(across);
   for (auto& ring : tile.rings) ring.begin();
+  for (const auto& stage : tile.stages) step_.begin_once(stage.time.step);
   parallel_tiles(1, bands_, 1, [&](std::int64_t, std::int64_t band, int worker) {
     run_band(tile, band, workers_[std::size_t(worker)]);
   });
-  for (const auto& sweep : part)
-    if (step_.is_last(sweep)) step_.finish({sweep.step, step_.dt_s()});
+  for (const auto& stage : tile.stages)
+    if (stage.kind == Stage::end_of_step) step_.finish(stage.time);
 }
 
 /// Makes all stages of a tile on a band of rows.

@@ -96,6 +96,7 @@ class TiledExecutor : public Executor {
   };
   static Counts counts(const std::vector<Stage>& stages);
   std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
+  std::vector<Stage> stages_from(const SweepTime& across) const;
   Stage stage_of(const SweepTime& sweep) const;
   std::vector<Stage> arranged(std::vector<Stage> stages) const;
   std::int64_t longest(const std::vector<Stage>& stages) const;

@@ -39,9 +39,9 @@ std::vector<std::vector<double>> interpolation_taps(int ratio) {
   for (int n = 0; n < ratio; ++n) {
     const double place = (n + 0.5) / ratio - 0.5;
     const auto offsets = offsets_of(points, place);
-    auto& taps = all.emplace_back(std::size_t(2 * reach + 1), 0.);
+    auto& taps = all.emplace_back(2 * std::size_t(reach) + 1, 0.);
     for (std::size_t of = 0; of < offsets.size(); ++of)
-      taps[std::size_t(offsets[of] + reach)] = lagrange(offsets, of, place);
+      taps.begin()[reach + offsets[of]] = lagrange(offsets, of, place);
   }
   return all;
 }
