@@ -20,8 +20,9 @@ struct ByLine {
   bool empty() const { return cells.empty(); }
   const Cell& operator[](std::int64_t n) const { return cells[std::size_t(n)]; }
   void end_line() { first.push_back(std::int64_t(cells.size())); }
+  std::int64_t count(std::int64_t line) const { return end(line) - first[std::size_t(line)]; }
   /// Whether a line holds none.
-  bool empty(std::int64_t line) const { return first[std::size_t(line)] == end(line); }
+  bool empty(std::int64_t line) const { return count(line) == 0; }
   /// The number after the last of a line.
   std::int64_t end(std::int64_t line) const { return first[std::size_t(line) + 1]; }
   /// The number of the first of a line at this column or behind it.

@@ -230,7 +230,7 @@ class InterfaceStencils {
   }
   /// Whether it corrects all of these columns.
   bool all(std::int64_t line, const IndexRange& columns) const {
-    return !list_.empty(line) && list_.in(line, columns).count() == columns.count();
+    return list_.count(line) >= columns.count() && list_.in(line, columns).count() == columns.count();
   }
   /// Overwrites up and down for the listed cells of these columns of a row. All pointers begin with the
   /// first. `metric`: of a curvilinear row.

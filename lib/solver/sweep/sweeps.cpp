@@ -936,7 +936,7 @@ std::array<SharedFaces<Real>*, 2> Sweeps<D, Real>::share_faces(const Domain<D>& 
 }
 
 template <int D, class Real>
-bool Sweeps<D, Real>::faces_at_rest(std::int64_t line, const IndexRange& columns) const {
+bool Sweeps<D, Real>::split_and_shared_at_rest(std::int64_t line, const IndexRange& columns) const {
   if (split_ && !split_->at_rest(line, columns)) return false;
   for (const auto& face : shared_) {
     if (!face || !face->given) continue;

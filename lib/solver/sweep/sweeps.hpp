@@ -66,7 +66,9 @@ class Sweeps {
     return {shared_[0] ? own_.first - 1 + reach_ : 0, own_.last + rows_behind()};
   }
   /// Whether nothing that faces of a line have retained or are given is other than zero in these columns.
-  bool faces_at_rest(std::int64_t line, const IndexRange& columns) const;
+  bool faces_at_rest(std::int64_t line, const IndexRange& columns) const {
+    return (!split_ && !shared_[0] && !shared_[1]) || split_and_shared_at_rest(line, columns);
+  }
   /// Lines along x of own_rows().
   IndexRange own_lines() const {
     const auto of_row = state_.layout.lines() / state_.layout.shape()[z_axis];
@@ -251,6 +253,7 @@ class Sweeps {
   /// these columns enter them.
   void add_tractions(const FreeSurface<D, Real>& surface, const Index<D>& line, const IndexRange& columns,
                      OutgoingWaves<Real> entering) const;
+  bool split_and_shared_at_rest(std::int64_t line, const IndexRange& columns) const;
   /// Keeps or sets the states of a face that another grid shares.
   void share(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Ring<Real>& ring);
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
