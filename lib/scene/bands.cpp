@@ -367,9 +367,10 @@ constexpr std::int64_t fewest_zone_cells = 12;
 
 /// Absorbing zones are as wide in all bands, in whole cells of the widest: the width that is given, or as
 /// many cells as without bands. What a zone sends back falls with the square of its damping times the time
-/// step (theory.md (E14b)), so where that is less than these cells allow fewer of them do.
+/// step (theory.md (E14b)), so where `step_s`, that of all bands, is less than these cells allow fewer of
+/// them do.
 template <int D>
-std::int64_t zone_of_widest(const Scene<D>& scene, const std::vector<InCells<D>>& all) {
+std::int64_t zone_of_widest(const Scene<D>& scene, const std::vector<InCells<D>>& all, double step_s) {
   const auto wider = [](const InCells<D>& one, const InCells<D>& other) {
     return one.grid().spacing_m < other.grid().spacing_m;
   };
@@ -378,8 +379,7 @@ std::int64_t zone_of_widest(const Scene<D>& scene, const std::vector<InCells<D>>
   if (scene.numerics.zone_cells > 0)
     return std::int64_t(
         std::ceil(cells * scene.model.grid().spacing_m / widest.grid().spacing_m * (1 - rounding)));
-  const double share = time_step_of_bands(all) / time_step_of(widest);
-  return std::max(fewest_zone_cells, std::int64_t(std::ceil(cells * share)));
+  return std::max(fewest_zone_cells, std::int64_t(std::ceil(cells * step_s / time_step_of(widest))));
 }
 
 /// By row, the slowest wave of that row and all below, m/s.
@@ -471,7 +471,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
   const auto whole = of_whole(all);
   const auto beside = rows_beside_band(scene.numerics.order);
   const double step_s = time_step_of_bands(all), largest = largest_cell_m(scene.numerics.bands);
-  const auto zone = zone_of_widest(scene, all);
+  const auto zone = zone_of_widest(scene, all, step_s);
   const auto widest = columns_of_widest(scene, largest);
   std::vector<Scene<D>> scenes;
   for (std::size_t n = 0; n < all.size(); ++n) {
@@ -501,7 +501,8 @@ template <int D>
 double cost_of_bands(const Scene<D>& scene, const std::vector<InCells<D>>& all) {
   double widest = 0, cells = 0;
   for (const auto& each : all) widest = std::max(widest, each.grid().spacing_m);
-  const double zone_m = double(zone_of_widest(scene, all)) * widest;
+  const double step_s = time_step_of_bands(all);
+  const double zone_m = double(zone_of_widest(scene, all, step_s)) * widest;
   for (std::size_t n = 0; n < all.size(); ++n) {
     const double spacing = all[n].grid().spacing_m;
     const auto zones = [&](int axis, int side) {
@@ -513,7 +514,7 @@ double cost_of_bands(const Scene<D>& scene, const std::vector<InCells<D>>& all) 
       of_band *= double(all[n].grid().shape[axis]) + zones(axis, 0) + zones(axis, 1);
     cells += of_band;
   }
-  return cells / time_step_of_bands(all);
+  return cells / step_s;
 }
 
 template <int D>
