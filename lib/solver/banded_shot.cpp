@@ -115,12 +115,8 @@ void BandedShot<D, Real>::run_from(const SweepTime& across) {
   for (const auto band : narrow_first_) {
     parts_[band]->executor().run_from(across);
     for (std::size_t n = 0; n < faces_.size(); ++n) {
-      if (!faces_[n].is_narrow(parts_[band]->state())) continue;
-      faces_[n].give_states();
-      const auto other = n == band ? n + 1 : n;
-      const auto own = parts_[other]->domain().own;
-      parts_[other]->executor().rows_changed(other == n ? IndexRange{own.last - 1, own.last}
-                                                        : IndexRange{own.first, own.first + 1});
+      // The row that takes these lies beside rows filled above, whose fields spread to it anyway.
+      if (faces_[n].is_narrow(parts_[band]->state())) faces_[n].give_states();
     }
   }
 }
