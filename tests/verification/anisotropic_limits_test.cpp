@@ -145,21 +145,25 @@ TEST(NextToIsotropic, StandsBelowAFloorThatRowsFollow) {
 const std::vector<std::vector<std::array<double, 2>>> all_dips = {
     {{40, 25}}, {{40, 25}, {90, -50}}, {{40, 25}, {90, -50}, {0, 0}}};
 
-/// Expects what planes change in rock next to isotropic to be what they do in isotropic rock.
-void expect_slip_as_in_isotropic_rock(const FractureSet<3>& set, SlipCorrection correction, double bound) {
+/// By how much what planes change in rock next to isotropic differs from what they change in isotropic rock,
+/// with steps of `step` of those of the clusters.
+double slip_next_to_isotropic(const FractureSet<3>& set, SlipCorrection correction, double step = 1) {
   auto next = plain;
   next.gamma = 1e-6;
   auto isotropic = cluster(plain, set), other = cluster(next, set);
-  isotropic.numerics.correction = other.numerics.correction = correction;
-  isotropic.numerics.double_precision = other.numerics.double_precision = true;
-  ASSERT_TRUE(lie_askew(set, other.model.medium, 0));
+  for (auto* scene : {&isotropic, &other}) {
+    scene->numerics.correction = correction;
+    scene->numerics.double_precision = true;
+    scene->numerics.cfl *= step;
+  }
+  EXPECT_TRUE(lie_askew(set, other.model.medium, 0));
   const auto wanted = of_slip(isotropic);
   isotropic.with_slip = false;
   EXPECT_GT(relative_error(difference(traces_of(isotropic), wanted), traces_of(isotropic)), 0.05);
-  EXPECT_LT(relative_error(of_slip(other), wanted), bound) << set.systems.size() << name_of(correction);
+  return relative_error(of_slip(other), wanted);
 }
 
-// Proves (S34a).
+// Proves (S27a), (S34a).
 TEST(NextToIsotropic, SlipsAsIsotropicRock) {
   const ThreadLimit one_thread(1);
   using enum SlipCorrection;
@@ -171,7 +175,14 @@ TEST(NextToIsotropic, SlipsAsIsotropicRock) {
       // Exactly solved slip of one family takes another path there than that of several.
       const bool same_rule = dips.size() > 1 || correction == first || correction == second;
       // Strengths that stay: friction makes much of little (theory/slip.md).
-      expect_slip_as_in_isotropic_rock(families(dips, 0, 5000, 5e3), correction, same_rule ? 1e-5 : 0.04);
+      const auto planes = families(dips, 0, 5000, 5e3);
+      const double found = slip_next_to_isotropic(planes, correction);
+      SCOPED_TRACE(std::to_string(dips.size()) + ' ' + name_of(correction));
+      if (same_rule)
+        EXPECT_LT(found, 1e-5);
+      else
+        // Two rules of second order differ by the error of the step: of an order above 1.5.
+        EXPECT_LT(slip_next_to_isotropic(planes, correction, 0.5), std::pow(0.5, 1.5) * found) << found;
     }
 }
 
@@ -179,7 +190,7 @@ TEST(NextToIsotropic, SlipsAsIsotropicRock) {
 TEST(NextToIsotropic, GivesWayAsIsotropicRock) {
   const ThreadLimit one_thread(1);
   for (const auto& dips : all_dips)
-    expect_slip_as_in_isotropic_rock(springs(dips, 0.3, 0.8), SlipCorrection::centred, 1e-5);
+    EXPECT_LT(slip_next_to_isotropic(springs(dips, 0.3, 0.8), SlipCorrection::centred), 1e-5) << dips.size();
 }
 
 // Proves (Q12).

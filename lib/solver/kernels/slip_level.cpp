@@ -97,6 +97,20 @@ template <int D, SlipCorrection Correction, class Real>
   }
 }
 
+/// The change (d1, d2) of a traction (t1, t2) that turned from (b1, b2) while welded planes carried it, where
+/// slip leaves `now` of |t| = size. Planes slip along the traction as it turns, on average along that in the
+/// middle of the step: along that of its end alone the rule would be of first order (S27a).
+template <class Real>
+[[gnu::always_inline]] inline void change_of_turning(Real b1, Real b2, Real t1, Real t2, Real size, Real now,
+                                                     Real& d1, Real& d2) {
+  const Real m1 = b1 + t1, m2 = b2 + t2, share = (size - now) / greater(length(m1, m2), slip::least<Real>);
+  const Real w1 = t1 - share * m1, w2 = t2 - share * m2;
+  const Real along = now / greater(length(w1, w2), slip::least<Real>);
+  // Where nothing slips nothing changes, to the bit.
+  d1 = now < size ? along * w1 - t1 : Real(0);
+  d2 = now < size ? along * w2 - t2 : Real(0);
+}
+
 /// Makes of the change of the traction by slip, (d1, d2), that of the stress by the centred rule: half of
 /// what slip took off the last time goes ahead, and comes back at the end.
 template <int D, Half Now, class Real>
@@ -161,6 +175,7 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
     }
     if constexpr (Law::has_state) slips[i] = Law::slip_after(slip_m, slip_per_pa, size - now);
     Real d1 = u1 * (now - size), d2 = u2 * (now - size);
+    if constexpr (ahead && D == 3) change_of_turning(began.tau1[i], began.tau2[i], t1, t2, size, now, d1, d2);
     if constexpr (centred) change_ahead<D, Now>(began, i, d1, d2);
     r0[i] = s0 + (m1[0] * d1 + (D == 3 ? m2[0] * d2 : Real(0)));
     r1[i] = s1 + (m1[1] * d1 + (D == 3 ? m2[1] * d2 : Real(0)));
