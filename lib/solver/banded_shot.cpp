@@ -2,6 +2,8 @@
 #include "solver/banded_shot.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <limits>
 #include <numeric>
 
 #include "base/instantiate.hpp"
@@ -10,20 +12,36 @@
 #include "scene/bands.hpp"
 #include "scene/empty_gather.hpp"
 #include "scene/surroundings.hpp"
+#include "solver/schedule/tiled.hpp"
 
 namespace slipwave::solver {
 namespace {
 
-/// Up to so many threads tiles take less time than sweeps of whole grids, though the threads are left idle:
-/// tiles of bands wait for each other (tests/bench/bands).
-constexpr int most_threads_for_tiles = 2;
+/// Up to so many threads for each that tiles keep at work they take less time than sweeps of whole grids
+/// (tests/bench/bands).
+constexpr int threads_for_tiles = 2;
+
+/// Threads that tiles of bands keep at work: each is two pieces behind the one before it.
+template <int D>
+std::int64_t served_by_tiles(const std::vector<Scene<D>>& bands) {
+  std::int64_t pieces = 0;
+  for (const auto& band : bands)
+    pieces += std::max<std::int64_t>(1, band.model.grid().shape[D - 1] / fewest_rows_of_a_piece);
+  return (pieces + 1) / 2;
+}
 
 }  // namespace
 
 template <int D, class Real>
 BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink)
     : scene_(&scene), shot_(shot), sink_(sink), scenes_(scenes_of_bands(scene)) {
-  for (auto& band : scenes_) band.numerics.tiling.plain |= parallel_threads() > most_threads_for_tiles;
+  narrow_first_.resize(scenes_.size());
+  std::iota(narrow_first_.begin(), narrow_first_.end(), std::size_t(0));
+  std::stable_sort(narrow_first_.begin(), narrow_first_.end(), [this](std::size_t one, std::size_t other) {
+    return scenes_[one].model.grid().spacing_m < scenes_[other].model.grid().spacing_m;
+  });
+  const auto served = wider_downwards() ? served_by_tiles(scenes_) : 1;
+  for (auto& band : scenes_) band.numerics.tiling.plain |= parallel_threads() > threads_for_tiles * served;
   // The bands record snapshots, which are put together here.
   const auto nowhere = sink ? SnapshotSink<D>([](double, const FieldReader<D>&) {}) : SnapshotSink<D>();
   const auto all = in_all_bands(scenes_, shot);
@@ -36,32 +54,26 @@ BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const S
                         typename BandFace<D, Real>::Side{&parts_[n]->state(), shared[n][0]},
                         parts_[n]->domain().edges, int(parts_[n]->sweeps().reach()),
                         scenes_[n].subdomain.own_heights[0]);
-  narrow_first_.resize(parts_.size());
-  std::iota(narrow_first_.begin(), narrow_first_.end(), std::size_t(0));
-  std::stable_sort(narrow_first_.begin(), narrow_first_.end(), [this](std::size_t one, std::size_t other) {
-    return scenes_[one].model.grid().spacing_m < scenes_[other].model.grid().spacing_m;
-  });
 }
 
 template <int D, class Real>
 void BandedShot<D, Real>::run_to(std::int64_t last, const Progress& progress,
                                  const std::function<bool()>& pause) {
-  for (auto n = done(); n < last; ++n) {
-    if (pause && pause()) return;
-    const StepTime time{n, parts_.front()->time_step().dt_s()};
-    bool snapshot = false;
-    for (auto& part : parts_) snapshot = sink_ && part->prepare_snapshot(n, n + 1);
-    const auto& sweeps = parts_.front()->time_step().sweeps();
-    for (std::size_t k = 1; k + 1 < sweeps.size(); ++k)
-      if (sweeps[k].axis == D - 1) run_from({n, k});
-    for (auto& part : parts_) part->made(n + 1);
-    if (snapshot) {
+  auto& last_swept = *parts_[narrow_first_.back()];
+  last_swept.tell(&progress);
+  for (bool paused = false; done() < last && !paused; paused = pause && pause()) {
+    typename ShotSimulation<D, Real>::Stretch stretch{};
+    for (auto& part : parts_) stretch = part->stretch_to(last);
+    const auto made = run_from(done(), stretch.until, pause);
+    for (auto& part : parts_) part->made(made);
+    if (stretch.snapshot && made == stretch.until) {
+      const StepTime time{made - 1, last_swept.time_step().dt_s()};
       sink_(time.end_s(), [this](const FieldKey& key) { return whole_field(key); });
       for (auto& part : parts_) part->release_snapshot();
     }
-    if (progress) progress(n + 1, steps());
-    if ((n + 1) % StabilityCheck<D, Real>::every == 0 || n + 1 == steps()) check_stability();
+    if (last_swept.check_is_due()) check_stability();
   }
+  last_swept.tell(nullptr);
 }
 
 /// On the cells of the scene's own model: each has the value of the cell of a band that its centre lies in.
@@ -100,25 +112,63 @@ void BandedShot<D, Real>::check_stability() const {
     }
 }
 
-/// A sweep along the last axis in all bands, and what follows it before the next.
+/// The rows beyond a face that each grid reads.
 template <int D, class Real>
-void BandedShot<D, Real>::run_from(const SweepTime& across) {
-  for (std::size_t n = 0; n < faces_.size(); ++n) {
-    faces_[n].fill_rows();
-    for (const auto side : {n, n + 1}) {
-      const auto own = parts_[side]->domain().own,
-                 rows = IndexRange{0, parts_[side]->domain().grid.shape[D - 1]};
-      parts_[side]->executor().rows_changed(side == n ? IndexRange{own.last, rows.last}
-                                                      : IndexRange{rows.first, own.first});
-    }
+void BandedShot<D, Real>::fill_rows(std::size_t face) {
+  faces_[face].fill_rows();
+  for (const auto side : {face, face + 1}) {
+    const auto own = parts_[side]->domain().own;
+    const IndexRange above{0, own.first}, below{own.last, parts_[side]->domain().grid.shape[D - 1]};
+    parts_[side]->executor().rows_changed(side == face ? below : above);
   }
+}
+
+/// Sweeps along the last axis in all bands, each with what follows it before the next, as parallel_tiles()
+/// makes tiles: the pieces of the grid that is swept first, then those of the next. Where that is from top to
+/// bottom, a face lies between two pieces that follow each other, so the next sweep may begin at the top
+/// before this one has ended. Returns the first step that was not made.
+template <int D, class Real>
+std::int64_t BandedShot<D, Real>::run_from(std::int64_t first, std::int64_t last,
+                                           const std::function<bool()>& pause) {
+  std::vector<SweepTime> across;
+  const auto& sweeps = parts_.front()->time_step().sweeps();
+  for (auto n = first; n < last; ++n)
+    for (std::size_t k = 1; k + 1 < sweeps.size(); ++k)
+      if (sweeps[k].axis == D - 1) across.push_back({n, k});
+  // Of a grid.
+  struct Piece {
+    std::size_t band;
+    std::int64_t number;
+    bool last;
+  };
+  std::vector<Piece> pieces;
+  auto at_once = wider_downwards() ? std::numeric_limits<std::int64_t>::max() : 1;
   for (const auto band : narrow_first_) {
-    parts_[band]->executor().run_from(across);
-    for (std::size_t n = 0; n < faces_.size(); ++n) {
-      // The row that takes these lies beside rows filled above, whose fields spread to it anyway.
-      if (faces_[n].is_narrow(parts_[band]->state())) faces_[n].give_states();
-    }
+    const auto& executor = parts_[band]->executor();
+    at_once = std::min(at_once, executor.most_at_once());
+    for (std::int64_t n = 0; n < executor.pieces(); ++n)
+      pieces.push_back({band, n, n + 1 == executor.pieces()});
   }
+  // Whether a step is made is decided in its first piece, which comes after that of the step before.
+  std::atomic<std::int64_t> made = last;
+  const auto sweep = [&](std::int64_t number, std::int64_t piece, int worker) {
+    const auto& time = across[std::size_t(number)];
+    const auto& [band, of_band, ends] = pieces[std::size_t(piece)];
+    const bool begins_step = piece == 0 && (number == 0 || across[std::size_t(number - 1)].step < time.step);
+    if (begins_step && time.step > first && time.step < made && pause && pause()) made = time.step;
+    if (time.step >= made) return;
+    // Before either grid beside a face changes what the other reads; the narrow one is swept first.
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+      const bool narrow_above = faces_[face].is_narrow(parts_[face]->state());
+      if (narrow_above ? band == face && ends : band == face + 1 && of_band == 0) fill_rows(face);
+    }
+    parts_[band]->executor().run_from(time, number, of_band, worker);
+    // The row that takes these lies beside rows filled above, whose fields spread to it anyway.
+    for (auto& face : faces_)
+      if (ends && face.is_narrow(parts_[band]->state())) face.give_states();
+  };
+  parallel_tiles(std::int64_t(across.size()), std::int64_t(pieces.size()), at_once, sweep);
+  return made;
 }
 
 template <int D, class Real>

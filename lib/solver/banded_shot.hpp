@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -40,7 +41,9 @@ class BandedShot {
  private:
   template <class Of>
   std::int64_t sum_of_parts(Of&& of) const;
-  void run_from(const SweepTime& across);
+  std::int64_t run_from(std::int64_t first, std::int64_t last, const std::function<bool()>& pause);
+  void fill_rows(std::size_t face);
+  bool wider_downwards() const { return std::is_sorted(narrow_first_.begin(), narrow_first_.end()); }
   void check_stability() const;
   Field<D> whole_field(const FieldKey& key) const;
 

@@ -13,6 +13,7 @@
 #include "solver/effect/pml.hpp"
 #include "solver/effect/point_source.hpp"
 #include "solver/effect/slip.hpp"
+#include "solver/schedule/band_face.hpp"
 #include "solver/schedule/plain.hpp"
 #include "solver/schedule/tiled.hpp"
 
@@ -120,7 +121,10 @@ std::unique_ptr<Executor> StepBuilder<D, Real>::executor(Sweeps<D, Real>& sweeps
     if (halo) throw Error("the plain executor runs on one process only", ErrorKind::usage);
     return std::make_unique<PlainExecutor<D, Real>>(sweeps, state, step);
   }
-  auto tiled = std::make_unique<TiledExecutor<D, Real>>(sweeps, state, step, tiling, domain.rows_beside());
+  // Bands of cells read rows of each other while what is beside them is swept.
+  const auto shared =
+      domain.rows_beside() + (scene.subdomain.other_cells ? BandFace<D, Real>::most_rows_read : 0);
+  auto tiled = std::make_unique<TiledExecutor<D, Real>>(sweeps, state, step, tiling, shared);
   tiled->use(halo);
   return tiled;
 }

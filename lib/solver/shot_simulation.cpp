@@ -163,17 +163,21 @@ std::unique_ptr<Halo<D, Real>> ShotSimulation<D, Real>::make_halo() {
 template <int D, class Real>
 void ShotSimulation<D, Real>::run_to(std::int64_t last, const Progress& progress,
                                      const std::function<bool()>& pause) {
-  step_.tell(&progress);
+  tell(&progress);
   for (bool paused = false; done_ < last && !paused; paused = pause && pause()) {
-    // No step is in progress where all fields are checked or written.
-    std::int64_t until = std::min(last, StabilityCheck<D, Real>::next_after(done_) + 1);
-    const bool snapshot = prepare_snapshot(done_, until);
-    if (snapshot) until = snapshots_.step() + 1;
-    done_ = executor_->run(done_, until, pause);
-    if (snapshot && done_ == until) take_snapshot();
-    if (done_ % StabilityCheck<D, Real>::every == 0 || done_ == steps_) check_together();
+    const auto stretch = stretch_to(last);
+    done_ = executor_->run(done_, stretch.until, pause);
+    if (stretch.snapshot && done_ == stretch.until) take_snapshot();
+    if (check_is_due()) check_together();
   }
-  step_.tell(nullptr);
+  tell(nullptr);
+}
+
+template <int D, class Real>
+auto ShotSimulation<D, Real>::stretch_to(std::int64_t last) -> Stretch {
+  const auto until = std::min(last, StabilityCheck<D, Real>::next_after(done_) + 1);
+  const bool snapshot = snapshots_.prepare(done_, until, dt_s_);
+  return {snapshot ? snapshots_.step() + 1 : until, snapshot};
 }
 
 template <int D, class Real>

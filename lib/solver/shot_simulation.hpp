@@ -63,11 +63,17 @@ class ShotSimulation {
   State<D, Real>& state() { return state_; }
   Executor& executor() { return *executor_; }
   void made(std::int64_t steps) { done_ = steps; }
-  /// Whether a snapshot is due at the end of a step first <= n < last, which then is taken: local_field()
-  /// has it until release_snapshot().
-  bool prepare_snapshot(std::int64_t first, std::int64_t last) {
-    return snapshots_.prepare(first, last, dt_s_);
-  }
+  /// Steps from done() on that may be in progress together: no step is where all fields are checked or
+  /// written. `snapshot`: one is due at their end; then local_field() has it until release_snapshot().
+  struct Stretch {
+    std::int64_t until;
+    bool snapshot;
+  };
+  Stretch stretch_to(std::int64_t last);
+  /// Whether all fields are to be checked after the steps that have been made.
+  bool check_is_due() const { return done_ % StabilityCheck<D, Real>::every == 0 || done_ == steps_; }
+  /// From now on `progress` (may be null) is told of each step.
+  void tell(const Progress* progress) { step_.tell(progress); }
   /// On the model's cells of this grid.
   Field<D> local_field(const FieldKey& key) const;
   void release_snapshot() { snapshots_.release(); }

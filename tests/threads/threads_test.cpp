@@ -97,6 +97,18 @@ TEST(Threads, ShareAShotOfFourthOrderInDoublePrecision) {
   expect_the_same_on_threads(scene);
 }
 
+/// Faces between bands in one rock and at an interface, at the order that reads most rows beyond them.
+TEST(Threads, ShareAShotInBands) {
+  auto scene = scene_of(EdgeLaw::absorbing, false);
+  auto& medium = scene.model.medium;
+  for (std::int64_t k = 0; k < nz; ++k)
+    for (std::int64_t i = 0; i < nx; ++i) put(medium, {i, k}, k < 200 ? soft : rock);
+  scene.numerics.order = 11;
+  scene.numerics.cfl = 0.45;
+  scene.numerics.bands = {{0, 5}, {600, 10}, {1000, 20}};
+  expect_the_same_on_threads(scene);
+}
+
 TEST(Threads, OfSeveralRanksRecordWhatOneDoes) {
   for (const auto sides : {EdgeLaw::absorbing, EdgeLaw::free}) {
     const auto scene = scene_of(sides, true);

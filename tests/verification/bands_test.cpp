@@ -295,14 +295,19 @@ TEST(Bands, GiveTheSameBitsPlainlyAndInTilesInSpace) {
 }
 
 TEST(Bands, GiveTheSameBitsWhateverTheThreads) {
-  auto scene = soft_ground().scene();
-  scene.recording.duration_s = 0.05;
-  scene.numerics.bands = {{0, 0.6}, {30, 2.4}};
-  const auto by = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return shoot(scene, 1);
+  const auto expect_on_threads = [](Scene<2> scene, std::vector<Band> bands) {
+    scene.numerics.bands = std::move(bands);
+    const auto by = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return shoot(scene, 1);
+    };
+    EXPECT_EQ(difference(by(3), by(1)), 0);
   };
-  EXPECT_EQ(difference(by(3), by(1)), 0);
+  auto stack = soft_ground();
+  stack.duration_s = 0.05;
+  expect_on_threads(stack.scene(), {{0, 0.6}, {30, 2.4}});
+  stack.rocks = {hard, soft}, stack.spacing_m = 1;
+  expect_on_threads(stack.scene(), {{0, 2}, {30, 1}});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/bands.hpp"
 #include "solver/sweep/band_columns.hpp"
 #include "solver/sweep/sweeps.hpp"
 
@@ -21,6 +22,8 @@ class BandFace {
     State<D, Real>* state;
     SharedFaces<Real>* shared;
   };
+  /// Rows of a grid beside the face that the other grid is filled from.
+  static constexpr int most_rows_read = (max_reach + 1) * widest_step_in_rock;
   /// `reach` of the reconstruction; `own_heights`: rows of a grid beyond the face are as high as its own.
   /// Keeps references.
   BandFace(const Side& above, const Side& below, const EdgeLaws<D>& edges, int reach, bool own_heights);

@@ -39,7 +39,7 @@ std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
 }
 
 template <int D, class Real>
-void PlainExecutor<D, Real>::run_from(const SweepTime& across) {
+void PlainExecutor<D, Real>::run_from(const SweepTime& across, std::int64_t, std::int64_t, int) {
   for (const auto& at : step_.from_across(across)) {
     const StepTime time{at.step, step_.dt_s()};
     step_.begin_once(at.step);

@@ -18,7 +18,7 @@ class PlainExecutor : public Executor {
   PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step);
   using Executor::run;
   std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
-  void run_from(const SweepTime& across) override;
+  void run_from(const SweepTime& across, std::int64_t number, std::int64_t piece, int worker) override;
   void serialize(Archive& archive) override;
   std::int64_t swept_cells() const override { return swept_; }
 

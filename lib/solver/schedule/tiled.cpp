@@ -23,8 +23,6 @@ constexpr std::int64_t usual_cells_of_a_plane = 1536;
 constexpr std::int64_t usual_chunk = 128, usual_planes = 4;
 /// Cache lines of the next planes that are fetched at a time, while a row of a sweep across is swept.
 constexpr int fetched_together = 24;
-/// Rows of a band, at least. Between bands some rows leave the cache.
-constexpr std::int64_t fewest_band_rows = 32;
 
 IndexRange common(const IndexRange& one, const IndexRange& other) {
   return {std::max(one.first, other.first), std::min(one.last, other.last)};
@@ -59,7 +57,8 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
     if (step.sweeps()[n].axis == D - 1) longest_ = std::max(longest_, longest(stages_from({0, n})));
   const auto [along_x, along_y, along_z] = counts(longest_tile);
   // Rows that are sent to neighbours or refreshed are then not in use by the next tile or the one before.
-  band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
+  band_rows_ =
+      std::max(fewest_rows_of_a_piece, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
   const auto most = std::int64_t(most_steps_in_progress / steps_per_tile_);
@@ -250,15 +249,16 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
 }
 
 template <int D, class Real>
-void TiledExecutor<D, Real>::run_from(const SweepTime& across) {
-  auto& tile = in_progress_.front();
-  tile.stages = stages_from(across);
-  for (auto& ring : tile.rings) ring.begin();
-  for (const auto& stage : tile.stages) step_.begin_once(stage.time.step);
-  parallel_tiles(1, bands_, 1, [&](std::int64_t, std::int64_t band, int worker) {
-    run_band(tile, band, workers_[std::size_t(worker)]);
-  });
-  for (const auto& stage : tile.stages)
+void TiledExecutor<D, Real>::run_from(const SweepTime& across, std::int64_t number, std::int64_t piece,
+                                      int worker) {
+  auto& tile = in_progress_[std::size_t(number) % in_progress_.size()];
+  if (piece == 0) {
+    tile.stages = stages_from(across);
+    for (auto& ring : tile.rings) ring.begin();
+    for (const auto& stage : tile.stages) step_.begin_once(stage.time.step);
+  }
+  run_band(tile, piece, workers_[std::size_t(worker)]);
+  for (const auto& stage : piece + 1 == bands_ ? tile.stages : std::vector<Stage>())
     if (stage.kind == Stage::end_of_step) step_.finish(stage.time);
 }
 

@@ -15,6 +15,9 @@
 
 namespace slipwave::solver {
 
+/// Rows of a band that one thread works on, at least. Between bands some rows leave the cache.
+inline constexpr std::int64_t fewest_rows_of_a_piece = 32;
+
 /// The values that the patches of a row store for its next stripe.
 template <class Real>
 struct PatchBoundary {
@@ -34,7 +37,7 @@ struct PatchBoundary {
 template <int D, class Real>
 class TiledExecutor : public Executor {
  public:
-  /// Keeps references. `rows_beside`: of neighbours, held on either side at most.
+  /// Keeps references. `rows_beside`: those that neighbours share, held on either side at most.
   TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step, const Tiling& tiling,
                 std::int64_t rows_beside = 0);
   /// From now on rows of neighbours are refreshed before each tile; it must outlive this. To be called before
@@ -43,7 +46,9 @@ class TiledExecutor : public Executor {
   using Executor::run;
   /// `pause` is called before each tile but the first.
   std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
-  void run_from(const SweepTime& across) override;
+  void run_from(const SweepTime& across, std::int64_t number, std::int64_t piece, int worker) override;
+  std::int64_t pieces() const override { return bands_; }
+  std::int64_t most_at_once() const override { return std::int64_t(in_progress_.size()); }
   void rows_changed(const IndexRange& rows) override;
   void fields_changed() override;
   void serialize(Archive& archive) override { active_.serialize(archive); }
