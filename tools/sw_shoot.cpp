@@ -15,7 +15,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   declare_numerics(options, s.scene);
   options.add("bands", s.scene.bands, "DEPTH:STEP,...",
               "cells of their own from each depth on, beside each other 2 to 4 times as large: 0:0.5,30:2; "
-              "none: those of the model");
+              "auto chooses them; none, the default: those of the model");
   options.add(
       "error", s.wanted_error, "SHARE",
       "choose the cheapest order, cell size and time step whose measured error is at most this (0.01: 1 %)");

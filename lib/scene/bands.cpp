@@ -521,6 +521,8 @@ template <int D>
 ChosenBands bands_for(const Scene<D>& scene) {
   const auto& grid = scene.model.grid();
   const auto slowest = slowest_below(scene.model.medium);
+  // Nothing is made in other cells where no waves call for them.
+  if (slowest.back() < 2 * slowest.front()) return {};
   const auto beside = rows_beside_band(scene.numerics.order);
   Scene<D> banded = scene;
   auto& bands = banded.numerics.bands;

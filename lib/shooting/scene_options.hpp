@@ -21,7 +21,8 @@ struct SceneOptions {
   std::string kind = "explosion", wavelet, record = "vz,vx,p";
   std::string top = "free", sides = "absorbing", bottom = "absorbing", ground = "free";
   std::string order = "5", time_order = "2", correction = "centred", precision = "float", without,
-              executor = "tiled", bands = "none";
+              executor = "tiled",
+              bands;  // empty: none, which is said where they would pay
   double amplitude = 1, duration_s = 0, interval_s = 0.001, cfl = 0.9;
   std::optional<double> time_step_s, q_frequency_hz;
   int q_mechanisms = AttenuationChoice().mechanisms;

@@ -85,7 +85,7 @@ void check_on_ranks(const ShootingOptions& options, int count) {
                   ErrorKind::usage);
   };
   refuse(!options.output.checkpoint.empty(), "--checkpoint", "use one");
-  refuse(options.scene.bands != "none", "--bands", "use one");
+  refuse(!options.scene.bands.empty() && options.scene.bands != "none", "--bands", "use one");
   refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
   refuse(measures(options), "--error, --measure or --error-gather",
          "use one process, then give what it chooses");
@@ -122,15 +122,17 @@ std::string result_in_words(const Scene<D>& scene) {
               : "no direct wave arrives, ");
 }
 
-/// Says in one line what was chosen and what it saves.
+/// Says in one line what was chosen and what it saves; where bands were not asked for, what they would save.
 template <int D>
-void choose_bands(Scene<D>& scene, const Messages& messages) {
+void choose_bands(Scene<D>& scene, bool asked, const Messages& messages) {
   const auto chosen = bands_for(scene);
-  scene.numerics.bands = chosen.bands;
-  messages.say(chosen.bands.empty()
-                   ? "bands: none, all in cells of " + shown(scene.model.grid().spacing_m) + " m"
-                   : "bands: cells of " + shown(chosen.bands) + "; " + shown(100 * chosen.share, 2) +
-                         " % of the cells and steps of one size");
+  const auto cells = "cells of " + shown(chosen.bands), share = shown(100 * chosen.share, 2) + " %";
+  if (asked) scene.numerics.bands = chosen.bands;
+  if (!chosen.bands.empty())
+    messages.say(asked ? "bands: " + cells + "; " + share + " of the cells and steps of one size"
+                       : cells + " would take " + share + " of these cells and steps: --bands auto");
+  else if (asked)
+    messages.say("bands: none, all in cells of " + shown(scene.model.grid().spacing_m) + " m");
 }
 
 template <int D>
@@ -142,7 +144,8 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   release_zeros(scene.model);
   release_freed_memory();
   warn_of_projection(scene.survey, messages);
-  if (options.scene.bands == "auto") choose_bands(scene, messages);
+  const bool asked = options.scene.bands == "auto";
+  if (asked || options.scene.bands.empty()) choose_bands(scene, asked, messages);
   if (!options.wanted_error)
     for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   if (options.plan) return print_plan(scene, options, messages);

@@ -65,6 +65,28 @@ TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
   done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
 }
 
+/// Where bands would pay, a line says so; they are made only when asked for.
+TEST_F(ShootOptions, SayWhatBandsOfCellsWouldSave) {
+  done("sw-layers --size 200x200 --step 1 --layer 0:900:300:1800 --layer 30:3500:2000:2300 -o soft.nc");
+  const auto said = [&](const std::string& model, const std::string& options, const std::string& output) {
+    return run("sw-shoot " + model +
+               " --source 100,8 --wavelet ricker:15 --receivers 50:150:10,20 --time 0.2 " + options + "-o " +
+               output)
+        .err;
+  };
+  const std::string cells = "cells of 1 m, from z=30 m on 4 m", hint = "--bands auto\n";
+  const auto by_default = said("soft.nc", "", "default.sgy");
+  EXPECT_TRUE(has(by_default, "sw-shoot: " + cells + " would take ") && has(by_default, hint)) << by_default;
+  EXPECT_FALSE(has(said("soft.nc", "--bands none ", "none.sgy"), cells));
+  done("cmp <(tail -c +3601 default.sgy) <(tail -c +3601 none.sgy)");
+  EXPECT_TRUE(has(said("soft.nc", "--bands auto ", "auto.sgy"), "sw-shoot: bands: " + cells + "; "));
+  EXPECT_NE(run("cmp -s <(tail -c +3601 default.sgy) <(tail -c +3601 auto.sgy)").code, 0);
+  // Bands do not go with a step in seconds, and nothing calls for them in rock of one speed.
+  EXPECT_FALSE(has(said("soft.nc", "--time-step 1e-4 ", "step.sgy"), "bands"));
+  done("sw-layers --size 200x200 --step 1 --layer 0:3500:2000:2300 -o hard.nc");
+  EXPECT_FALSE(has(said("hard.nc", "", "hard.sgy"), "bands"));
+}
+
 TEST_F(ShootOptions, OfTheBoxLeaveTheGroundInsideItFree) {
   const std::string here =
       "sw-shoot hill.nc --wavelet ricker:20 --time 0.1 --receivers 50:350:50,surface "
