@@ -193,10 +193,12 @@ std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>
   return value_weights(layout, point_weights<D>(domain.grid, point_m, usable), field_row);
 }
 
-/// The correction of velocity of the images beyond a free surface of a solid, as weights.
+/// The correction of velocity of the images beyond a free surface of a solid, and for forces what the plain
+/// image of the transposed scheme leaves below it (A23), as weights.
 template <int D>
-void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& point_m,
-                            std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,
+void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& centre,
+                            const Point<D>& point_m, std::array<AxisCells, std::size_t(D)> usable, int axis,
+                            int side, int row, const ErrorsBelow<D>& errors_below,
                             std::vector<ValueWeight>& weights) {
   auto& across = usable[std::size_t(axis)];
   const std::int64_t last = side ? across.high : across.low;
@@ -207,6 +209,13 @@ void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, co
   double images = 0;
   for (std::size_t n = 0; n < evenly.size(); ++n)
     images += 0.5 * (evenly[n].weight - oddly[n].weight) * double(2 * std::abs(evenly[n].cell - last) + 1);
+  if (errors_below) {
+    Index<D> at = centre;
+    at[axis] = last;
+    const auto errors = errors_below(at, axis, row);
+    for (const auto& [cell, weight] : evenly)
+      if (const auto n = std::size_t(std::abs(cell - last)); n < errors.size()) images += weight * errors[n];
+  }
   if (images == 0) return;
   // The surface's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
@@ -315,9 +324,11 @@ static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& 
   return usable;
 }
 
+/// Weights to read with, or with errors those of a force.
 template <int D>
-std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                     const Point<D>& point_m, int field_row, Side side) {
+static std::vector<ValueWeight> weights_of_value(const Layout<D>& layout, const Domain<D>& domain,
+                                                 const Point<D>& point_m, int field_row, Side side,
+                                                 const ErrorsBelow<D>& errors) {
   const Index<D> centre = cell_at(domain, point_m, side);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
@@ -327,16 +338,24 @@ std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& d
     for (int axis = 0; axis < D; ++axis)
       for (const int of : {0, 1})
         if (usable.ends_free[std::size_t(axis)][std::size_t(of)])
-          add_surface_correction(layout, domain, place, usable.cells, axis, of, field_row, weights);
+          add_surface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, errors,
+                                 weights);
   return weights;
 }
 
 template <int D>
+std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                     const Point<D>& point_m, int field_row, Side side) {
+  return weights_of_value<D>(layout, domain, point_m, field_row, side, {});
+}
+
+template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m, int field_row, Side side) {
+                                        const Point<D>& point_m, int field_row, const ErrorsBelow<D>& errors,
+                                        Side side) {
   const Index<D> centre = cell_at(domain, point_m, side);
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
-    return row_weights(layout, domain, point_m, field_row, side);
+    return weights_of_value(layout, domain, point_m, field_row, side, errors);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   auto usable = cells_of_point(domain, centre, place, field_row, false);
   for (int axis = 0; axis < D; ++axis) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
@@ -33,12 +34,17 @@ template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row, Side side = Side::solid);
 
-/// Returns the weights for a source, which adds with them. Stresses of solids that would reach beyond a free
-/// surface go to the two nearest cells across it instead, or are extrapolated from them beyond the last
-/// centre.
+/// extension_errors() of a velocity across an axis, below the surface that this cell ends at.
+template <int D>
+using ErrorsBelow = std::function<std::vector<double>(const Index<D>& at, int axis, int velocity)>;
+
+/// Returns the weights for a source, which adds with them: velocities as they are read but for the errors
+/// with which a free surface answers to forces. Stresses of solids that would reach beyond a free surface go
+/// to the two nearest cells across it instead, or are extrapolated from them beyond the last centre.
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m, int field_row, Side side = Side::solid);
+                                        const Point<D>& point_m, int field_row, const ErrorsBelow<D>& errors,
+                                        Side side = Side::solid);
 
 /// Returns the weights of a source for a normal stress in a solid, smoothly spread over cells of the rock
 /// that the source is in (theory.md (A8)). They are empty in fluid, and where that rock is too thin.
