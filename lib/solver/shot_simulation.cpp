@@ -79,9 +79,10 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
 
 /// The computed grid of a shot. Cells that interfaces cut and that slip are isotropic means.
 template <int D>
-Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot) {
+Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot, double dt_s) {
   auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                             scene.subdomain, scene.numerics.order);
+  domain.steps = {&medium, dt_s, scene.numerics.time_order};
   const auto& model = scene.model;
   if (scene.with_slip) domain.split = split_faces(model), domain.soft = soft_cells(domain, model);
   for (auto& face : domain.split) face.behind = domain.computed_cell(face.behind);
@@ -113,7 +114,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)),
       unit_(bands ? bands->unit : unit_of(scene, dt_s_, largest_of(ranks, rate_added(scene, shot)))),
       attenuating_(attenuating_medium(scene, dt_s_)),
-      domain_(domain_of(scene, medium(), shot)),
+      domain_(domain_of(scene, medium(), shot, dt_s_)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
       effects_(make_effects()),

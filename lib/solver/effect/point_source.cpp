@@ -7,8 +7,6 @@
 
 #include "acquisition/interpolation.hpp"
 #include "base/instantiate.hpp"
-#include "scene/splitting.hpp"
-#include "solver/sweep/extension_errors.hpp"
 
 namespace slipwave::solver {
 
@@ -21,21 +19,13 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
       wavelet_(source.wavelet),
       delay_s_(source.delay_s),
       unit_(unit) {
-  const double dt_s = time_step_s(scene);
-  const auto errors_below = [&](const Index<D>& at, int across, int velocity) {
-    const double impedance = domain.impedance(velocity == across ? wave_p : wave_s, across)(at),
-                 speed = impedance / medium_.rho(domain.model_cell(at)),
-                 cell_m = domain.grid.spacing_m * (across == D - 1 ? domain.height(at[D - 1]) : 1);
-    return extension_errors(
-        {domain.order, speed * dt_s / cell_m, across, splitting(D, scene.numerics.time_order)});
-  };
   const bool isotropic = point_injection(source)->isotropic;
-  if (owns_point(domain, source.position_m, isotropic ? Side::fluid : Side::solid))
-    weigh(source, errors_below);
+  if (owns_point(domain, source.position_m, isotropic ? Side::fluid : Side::solid)) weigh(source);
   if (ranks) share(*ranks);
   find_rows();
   std::stable_sort(values_.begin(), values_.end(),
                    [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
+  const double dt_s = time_step_s(scene);
   double given = 0;
   for (StepTime time{0, dt_s}; active(time) && time.end_s() <= scene.recording.duration_s + dt_s;
        ++time.step) {
@@ -48,7 +38,7 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
 
 /// The values it adds to, and their weights.
 template <int D, class Real>
-void PointSource<D, Real>::weigh(const Source<D>& source, const ErrorsBelow<D>& errors) {
+void PointSource<D, Real>::weigh(const Source<D>& source) {
   using Rows = FieldRows<D>;
   const auto injection = *point_injection(source);
   side_ = injection.isotropic ? Side::fluid : Side::solid;
@@ -58,7 +48,7 @@ void PointSource<D, Real>::weigh(const Source<D>& source, const ErrorsBelow<D>& 
   const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
   const int normal_stresses = Rows::normal_stresses(state_.layout);
   for (int i = 0; i < D; ++i) {
-    add_force(source, i, injection.force[std::size_t(i)], volume, errors);
+    add_force(source, i, injection.force[std::size_t(i)], volume);
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
     if (!spread && i < normal_stresses)
       add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
@@ -155,12 +145,27 @@ void PointSource<D, Real>::report(ShotReport& report) const {
 /// Spreads a force along an axis with the weights with which receivers read the velocity: each cell takes up
 /// its share with its own mass, so that source and receiver can be exchanged.
 template <int D, class Real>
-void PointSource<D, Real>::add_force(const Source<D>& source, int axis, double newtons, double volume,
-                                     const ErrorsBelow<D>& errors) {
+void PointSource<D, Real>::add_force(const Source<D>& source, int axis, double newtons, double volume) {
+  using Rows = FieldRows<D>;
   if (newtons == 0) return;
   for (const auto& value :
-       source_weights<D>(state_.layout, domain_, source.position_m, FieldRows<D>::velocity(axis), errors))
-    add({value}, 0, newtons / (medium_.rho(domain_.model_cell(cell_of_value(value))) * volume));
+       source_weights(state_.layout, domain_, source.position_m, FieldRows<D>::velocity(axis))) {
+    const auto cell = domain_.model_cell(cell_of_value(value));
+    const double rho = medium_.rho(cell);
+    const int row = int(value.place / state_.layout.row_pitch());
+    if (row < D) {
+      add({value}, 0, newtons / (rho * volume));
+      continue;
+    }
+    // In the energy a stress is over its stiffness, and back in time it keeps its sign where motion turns.
+    const double mu = rho * medium_.vs(cell) * medium_.vs(cell),
+                 lambda = rho * medium_.vp(cell) * medium_.vp(cell) - 2 * mu, given = -newtons / volume;
+    const bool shear = row >= Rows::normal_stress(0) + D;
+    if (shear) add({value}, 0, given * mu);
+    for (int i = 0; !shear && i < D; ++i)
+      add({value}, Rows::normal_stress(i) - row,
+          given * (lambda + (Rows::normal_stress(i) == row ? 2 * mu : 0)));
+  }
 }
 
 template <int D, class Real>
@@ -175,7 +180,7 @@ template <int D, class Real>
 void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
   using Rows = FieldRows<D>;
   if (strength != 0)
-    add(source_weights<D>(state_.layout, domain_, source.position_m, like, {}, side_),
+    add(source_weights(state_.layout, domain_, source.position_m, like, side_),
         Rows::stored(state_.layout, row) - Rows::stored(state_.layout, like), strength);
 }
 

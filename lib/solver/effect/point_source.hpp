@@ -49,10 +49,9 @@ class PointSource : public Effect<D, Real> {
   void report(ShotReport& report) const override;
 
  private:
-  void weigh(const Source<D>& source, const ErrorsBelow<D>& errors);
+  void weigh(const Source<D>& source);
   void share(Ranks& ranks);
-  void add_force(const Source<D>& source, int axis, double newtons, double volume,
-                 const ErrorsBelow<D>& errors);
+  void add_force(const Source<D>& source, int axis, double newtons, double volume);
   Index<D> cell_of_value(const ValueWeight& value) const;
   void add(const Source<D>& source, int row, int like, double strength);
   bool add_smoothly(const Source<D>& source, double strength);

@@ -486,6 +486,13 @@ const Field<D>& Domain<D>::impedance_of_pair(int axis, int pair) const {
 }
 
 template <int D>
+double Domain<D>::courant(const Index<D>& cell, int axis, int pair) const {
+  if (!steps.medium) return 0;
+  const double cell_m = grid.spacing_m * (axis == D - 1 ? height(cell[D - 1]) : 1);
+  return impedance_of_pair(axis, pair)(cell) / steps.medium->rho(model_cell(cell)) * steps.dt_s / cell_m;
+}
+
+template <int D>
 const AnisotropicCell* Domain<D>::anisotropic_cell(const Index<D>& at) const {
   if (cells_.empty()) return nullptr;
   const auto cell = grid.flat(at);

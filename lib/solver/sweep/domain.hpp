@@ -58,6 +58,13 @@ class Domain {
   std::vector<SplitFace<D>> split;  // of the computed grid, by axis and cell: no uniform run crosses these
   std::vector<std::int64_t> soft;   // cells that carry next to no stress (soft_cells())
   int order = 1;                    // of the reconstruction, at most
+  /// The steps that a shot is simulated in; no medium where that is not known. Held as long as impedances
+  /// are.
+  struct Steps {
+    const Medium<D>* medium = nullptr;
+    double dt_s = 0;
+    int time_order = 2;
+  } steps;
   /// These two are of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that
   /// stencils reach from it is not level, and the height of level ones in cells. They are empty where no row
   /// is curvilinear, or all heights are one cell.
@@ -77,6 +84,9 @@ class Domain {
   /// Returns the impedance of a pair of sweeps along an axis (axis_of_pair()); pairs differ in anisotropic
   /// rock in 3-D.
   const Field<D>& impedance_of_pair(int axis, int pair) const;
+  /// Returns the Courant number of the wave of a pair in a whole step: of the steps, 0 where they are not
+  /// known.
+  double courant(const Index<D>& cell, int axis, int pair) const;
   /// Whether the S pairs of an axis may have different ones.
   bool splits_shear() const { return D == 3 && anisotropic(); }
   /// Whether any cell, of any process, is anisotropic.
@@ -108,7 +118,7 @@ class Domain {
   }
   /// Frees their memory.
   void release_impedances() {
-    impedances_ = {}, more_ = {};
+    impedances_ = {}, more_ = {}, steps = {};
     if (D == 3) cells_ = {}, media_ = {};
   }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }

@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "scene/splitting.hpp"
 
 namespace slipwave::solver {
 
-/// The sweeps across a free surface of a solid, of one pair.
-struct SurfaceSweeps {
-  int order = 1;       // of the reconstruction
-  double courant = 0;  // of the pair's wave in a whole step
+/// The sweeps across a face, of one pair: what it lies between, before and behind it.
+struct SweepsAcross {
+  int order = 1;                      // of the reconstruction
+  std::array<double, 2> impedance{};  // 0: nothing, the face is a free surface
+  std::array<double, 2> courant{};    // of the wave in a whole step
   int axis = 0;
   std::vector<SweepFraction> of_step{};
 };
 
-/// Returns, for the first cells below a free surface, how far the motion across a sweep that keeps the plain
-/// mirror image lies from one with slope 1 per cell, in the same unit, where sweeps along the surface take
-/// away what that slope loads (theory.md (A23)): the transposed scheme, which forces answer to, has no
-/// correction of velocity.
-std::vector<double> extension_errors(const SurfaceSweeps& of);
+/// A pair (v, s), by side of a face; of cells from the face on, or a slope per cell.
+template <class Value>
+struct PairBeside {
+  std::array<Value, 2> v{}, s{};
+};
+
+/// Returns by how much pairs of cells beside a face lie off ones with these slopes, where sweeps along the
+/// face take away what sweeps across add (theory.md (A23)): extensions (E10) have the mean slope of both
+/// sides, (E11) none of v.
+PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const PairBeside<double>& slopes);
 
 }  // namespace slipwave::solver

@@ -7,7 +7,10 @@
 #include <optional>
 
 #include "base/instantiate.hpp"
+#include "base/small_matrix.hpp"
 #include "grid/locate.hpp"
+#include "scene/splitting.hpp"
+#include "solver/sweep/extension_errors.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/motion_along.hpp"
 
@@ -193,13 +196,182 @@ std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>
   return value_weights(layout, point_weights<D>(domain.grid, point_m, usable), field_row);
 }
 
+/// The pair of a velocity in sweeps along an axis.
+template <int D>
+int pair_of(int axis, int velocity) {
+  for (int pair = 1; pair < D && velocity != axis; ++pair)
+    if (axis_of_pair<D>(axis, pair) == velocity) return pair;
+  return 0;
+}
+
+/// A sum over cells from a face on, `last` the first of them.
+double weighted(const std::vector<CellWeight>& weights, const std::vector<double>& values,
+                std::int64_t last) {
+  double sum = 0;
+  for (const auto& [cell, weight] : weights)
+    if (const auto n = std::size_t(std::abs(cell - last)); n < values.size()) sum += weight * values[n];
+  return sum;
+}
+
+/// Returns by how much a velocity of slope 1 lies off in the field that forces answer to, below the free
+/// surface that a cell ends at (A23). Empty where the steps are not known.
+template <int D>
+std::vector<double> errors_below_surface(const Domain<D>& domain, const Index<D>& at, int axis,
+                                         int velocity) {
+  const double courant = domain.courant(at, axis, pair_of<D>(axis, velocity));
+  if (courant == 0) return {};
+  const SweepsAcross sweeps{domain.order, {0, 1}, {0, courant}, axis, splitting(D, domain.steps.time_order)};
+  return extension_errors(sweeps, {{0, 1}, {}}).v[1];
+}
+
+/// What velocities lie off beside an interface of rocks that steps make a kink at (A24), as terms of fields
+/// of the cells `before` and `behind` its face and beside them.
+template <int D>
+class InterfaceErrors {
+ public:
+  InterfaceErrors(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity)
+      : domain_(domain), axis_(axis), velocity_(velocity), cells_{behind, behind} {
+    --cells_[0][std::size_t(axis)];
+    const int pair = pair_of<D>(axis, velocity);
+    const auto& impedance = domain.impedance_of_pair(axis, pair);
+    SweepsAcross sweeps{domain.order, {}, {}, axis, splitting(D, domain.steps.time_order)};
+    for (const int side : sides) {
+      const auto& cell = cells_[std::size_t(side)];
+      const double z = impedance(cell), courant = domain.courant(cell, axis, pair);
+      z_[std::size_t(side)] = sweeps.impedance[std::size_t(side)] = z;
+      courant_[std::size_t(side)] = sweeps.courant[std::size_t(side)] = courant;
+    }
+    of_v_ = extension_errors(sweeps, {{1 / z_[0], 0}, {}});
+    of_s_ = extension_errors(sweeps, {{}, {z_[0], 0}});
+  }
+
+  /// Returns those of a sum over cells on a side of the face, with the sign changed: none where rocks beside
+  /// these cells differ.
+  std::vector<SurfaceTerm<D>> terms(const std::vector<CellWeight>& across, int side) const {
+    const auto own = std::size_t(side);
+    const auto last = cells_[own][std::size_t(axis_)];
+    const double of_v = weighted(across, of_v_.v[own], last), of_s = weighted(across, of_s_.v[own], last);
+    // v and s behind the face less those before it tell the rates of traction and motion of the face.
+    const double kink = 1 / courant_[0] - 1 / courant_[1];
+    SmallMatrix<2> told{};
+    for (const auto n : {0U, 1U}) {
+      told[0][0] += 0.5 / (courant_[n] * z_[n]), told[1][1] += 0.5 * z_[n] / courant_[n];
+      const double sign = n == 0 ? -1 : 1;
+      told[0][0] += sign * kink * of_v_.v[n][0], told[1][0] += sign * kink * of_s_.v[n][0];
+      told[0][1] += sign * kink * of_v_.s[n][0], told[1][1] += sign * kink * of_s_.s[n][0];
+    }
+    const auto [x, y] = solved(told, {-of_v * kink, -of_s * kink});
+    const double jump_v = of_v_.v[1][0] - of_v_.v[0][0], jump_s = of_s_.v[1][0] - of_s_.v[0][0],
+                 other_v = of_v_.s[1][0] - of_v_.s[0][0], other_s = of_s_.s[1][0] - of_s_.s[0][0];
+    std::vector<SurfaceTerm<D>> all;
+    bool complete = true;
+    for (const auto n : {0U, 1U}) {
+      const double sign = n == 0 ? -1 : 1;
+      const double load = x * (0.5 - sign * z_[n] * jump_v) - sign * z_[n] * (y * other_v + of_v),
+                   thrust = y * (0.5 - sign * other_s / z_[n]) - sign / z_[n] * (x * jump_s + of_s);
+      all.push_back({cells_[n], FieldRows<D>::velocity(velocity_), sign * x});
+      all.push_back({cells_[n], stress(axis_, velocity_), sign * y});
+      complete &= add_along(cells_[n], load, thrust, all);
+    }
+    return complete ? all : std::vector<SurfaceTerm<D>>();
+  }
+
+ private:
+  static constexpr std::array<int, 2> sides{0, 1};
+  static int stress(int one, int other) {
+    return one == other ? FieldRows<D>::normal_stress(one)
+                        : FieldRows<D>::shear_stress(std::min(one, other), std::max(one, other));
+  }
+  /// What sweeps along the interface add in a cell to the traction on it, times `load`, and to the motion.
+  bool add_along(const Index<D>& cell, double load, double thrust, std::vector<SurfaceTerm<D>>& all) const {
+    const double high = axis_ == D - 1 ? domain_.height(cell[D - 1]) : 1;
+    const double ratio = std::pow(domain_.impedance(wave_s)(cell) / domain_.impedance(wave_p)(cell), 2);
+    for (int along = 0; along < D; ++along) {
+      if (along == axis_ || thin(domain_, along)) continue;
+      const double wide = along == D - 1 ? domain_.height(cell[D - 1]) : 1;
+      const bool loads = velocity_ == axis_ || velocity_ == along;
+      const double of_strain = velocity_ == axis_ ? 1 - 2 * ratio : 1;
+      const int motion = velocity_ == axis_ ? along : axis_;
+      for (std::size_t k = 0; k < offsets_along.size(); ++k) {
+        Index<D> offset{};
+        offset[std::size_t(along)] = offsets_along[k];
+        const double difference = weights_along[k] * high / wide;
+        if (loads && !add_term(domain_, cell, offset, FieldRows<D>::velocity(motion),
+                               load * of_strain * difference, all))
+          return false;
+        if (!add_term(domain_, cell, offset, stress(along, velocity_), thrust * difference, all))
+          return false;
+      }
+    }
+    return true;
+  }
+
+  const Domain<D>& domain_;
+  int axis_, velocity_;
+  std::array<Index<D>, 2> cells_;
+  std::array<double, 2> z_{}, courant_{};
+  PairBeside<std::vector<double>> of_v_, of_s_;  // of mismatches 1 of slopes of v and s
+};
+
+/// Whether a velocity has a kink at the face before a cell: a strong interface of isotropic rocks in level
+/// rows, along all that steps and weights need of it.
+template <int D>
+bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity) {
+  constexpr std::int64_t along_needed = widest_stencil;
+  Index<D> before = behind;
+  --before[axis];
+  const int pair = pair_of<D>(axis, velocity);
+  const auto& impedance = domain.impedance_of_pair(axis, pair);
+  if (domain.anisotropic() || domain.courant(behind, axis, pair) == 0 || domain.curvilinear(behind[D - 1]) ||
+      domain.curvilinear(before[D - 1]) || !strong_interface_between(impedance(before), impedance(behind)))
+    return false;
+  if (domain.impedance(wave_s)(before) == 0 || domain.impedance(wave_s)(behind) == 0) return false;
+  if (domain.subdomain.other_cells && !(domain.owns(before[D - 1]) && domain.owns(behind[D - 1])))
+    return false;
+  const auto ends = [&](const SplitFace<D>& face) { return face.axis == axis && face.behind == behind; };
+  if (std::any_of(domain.split.begin(), domain.split.end(), ends)) return false;
+  for (int along = 0; along < D; ++along)
+    for (std::int64_t n = -along_needed; along != axis && n <= along_needed; ++n) {
+      Index<D> one = before, other = behind;
+      one[along] += n, other[along] += n;
+      if (one[along] < 0 || one[along] >= domain.grid.shape[along]) continue;
+      if (!alike(domain, before, one) || !alike(domain, behind, other)) return false;
+    }
+  return true;
+}
+
+/// Takes away what the velocity lies off at the interface of rocks that the cells end at on a side.
+template <int D>
+void add_interface_correction(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& centre,
+                              const Point<D>& point_m, const std::array<AxisCells, std::size_t(D)>& usable,
+                              int axis, int side, int row, std::vector<ValueWeight>& weights) {
+  const auto& across = usable[std::size_t(axis)];
+  Index<D> last = centre, behind = centre;
+  last[axis] = side ? across.high : across.low;
+  behind[axis] = last[axis] + (side ? 1 : 0);
+  if (behind[axis] < 1 || behind[axis] >= domain.grid.shape[axis] || !kinks(domain, behind, axis, row))
+    return;
+  const auto terms = InterfaceErrors<D>(domain, behind, axis, row)
+                         .terms(axis_weights(domain.grid.position(axis, point_m[axis]), across), 1 - side);
+  Point<D> on_edge = point_m;
+  on_edge[axis] = domain.grid.centre(axis, last[axis]);
+  auto cells = usable;
+  cells[std::size_t(axis)] = {last[axis], last[axis]};
+  for (const auto& at : point_weights<D>(domain.grid, on_edge, cells))
+    for (auto term : terms) {
+      for (int along = 0; along < D; ++along)
+        if (along != axis) term.cell[along] += at.cell[along] - centre[along];
+      weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
+                         at.weight * term.weight});
+    }
+}
+
 /// The correction of velocity of the images beyond a free surface of a solid, and for forces what the plain
 /// image of the transposed scheme leaves below it (A23), as weights.
 template <int D>
 void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& centre,
                             const Point<D>& point_m, std::array<AxisCells, std::size_t(D)> usable, int axis,
-                            int side, int row, const ErrorsBelow<D>& errors_below,
-                            std::vector<ValueWeight>& weights) {
+                            int side, int row, bool of_force, std::vector<ValueWeight>& weights) {
   auto& across = usable[std::size_t(axis)];
   const std::int64_t last = side ? across.high : across.low;
   const double position = domain.grid.position(axis, point_m[axis]);
@@ -209,12 +381,10 @@ void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, co
   double images = 0;
   for (std::size_t n = 0; n < evenly.size(); ++n)
     images += 0.5 * (evenly[n].weight - oddly[n].weight) * double(2 * std::abs(evenly[n].cell - last) + 1);
-  if (errors_below) {
+  if (of_force) {
     Index<D> at = centre;
     at[axis] = last;
-    const auto errors = errors_below(at, axis, row);
-    for (const auto& [cell, weight] : evenly)
-      if (const auto n = std::size_t(std::abs(cell - last)); n < errors.size()) images += weight * errors[n];
+    images += weighted(evenly, errors_below_surface(domain, at, axis, row), last);
   }
   if (images == 0) return;
   // The surface's own cells, at the point's place along it.
@@ -324,38 +494,39 @@ static ExtendedCells<D> cells_of_point(const Domain<D>& domain, const Index<D>& 
   return usable;
 }
 
-/// Weights to read with, or with errors those of a force.
+/// Weights to read with, or those of a force.
 template <int D>
 static std::vector<ValueWeight> weights_of_value(const Layout<D>& layout, const Domain<D>& domain,
                                                  const Point<D>& point_m, int field_row, Side side,
-                                                 const ErrorsBelow<D>& errors) {
+                                                 bool of_force) {
   const Index<D> centre = cell_at(domain, point_m, side);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   const auto usable = cells_of_point(domain, centre, place, field_row, fluid);
   std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable.cells, field_row);
-  if (!fluid && field_row < D)
-    for (int axis = 0; axis < D; ++axis)
-      for (const int of : {0, 1})
-        if (usable.ends_free[std::size_t(axis)][std::size_t(of)])
-          add_surface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, errors,
-                                 weights);
+  for (int axis = 0; !fluid && field_row < D && axis < D; ++axis)
+    for (const int of : {0, 1}) {
+      if (usable.ends_free[std::size_t(axis)][std::size_t(of)])
+        add_surface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, of_force,
+                               weights);
+      else
+        add_interface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, weights);
+    }
   return weights;
 }
 
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row, Side side) {
-  return weights_of_value<D>(layout, domain, point_m, field_row, side, {});
+  return weights_of_value(layout, domain, point_m, field_row, side, false);
 }
 
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m, int field_row, const ErrorsBelow<D>& errors,
-                                        Side side) {
+                                        const Point<D>& point_m, int field_row, Side side) {
   const Index<D> centre = cell_at(domain, point_m, side);
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
-    return weights_of_value(layout, domain, point_m, field_row, side, errors);
+    return weights_of_value(layout, domain, point_m, field_row, side, true);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   auto usable = cells_of_point(domain, centre, place, field_row, false);
   for (int axis = 0; axis < D; ++axis) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
@@ -27,24 +26,21 @@ enum class Side : std::uint8_t { solid, fluid };
 
 /// Weights of the values of one field row round a point (theory.md (A1)-(A3)), from cells of the same kind
 /// (solid or fluid) as the one the point is in: nothing is read across a fluid-solid interface, and across
-/// another strong one only where fewer than widest_beyond cells are on this side. At an edge of the grid the
-/// field is extended by the edge law, beside void as at a free edge. Empty for shear stresses that are not
-/// stored.
+/// another strong one only where fewer than widest_beyond cells are on this side. Of a velocity beside one of
+/// rocks there are values of other fields, too, which take away its errors there (theory.md (A24)). At an
+/// edge of the grid the field is extended by the edge law, beside void as at a free edge. Empty for shear
+/// stresses that are not stored.
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row, Side side = Side::solid);
 
-/// extension_errors() of a velocity across an axis, below the surface that this cell ends at.
-template <int D>
-using ErrorsBelow = std::function<std::vector<double>(const Index<D>& at, int axis, int velocity)>;
-
 /// Returns the weights for a source, which adds with them: velocities as they are read but for the errors
-/// with which a free surface answers to forces. Stresses of solids that would reach beyond a free surface go
-/// to the two nearest cells across it instead, or are extrapolated from them beyond the last centre.
+/// with which a free surface answers to forces (theory.md (A23)). Stresses of solids that would reach beyond
+/// a free surface go to the two nearest cells across it instead, or are extrapolated from them beyond the
+/// last centre.
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m, int field_row, const ErrorsBelow<D>& errors,
-                                        Side side = Side::solid);
+                                        const Point<D>& point_m, int field_row, Side side = Side::solid);
 
 /// Returns the weights of a source for a normal stress in a solid, smoothly spread over cells of the rock
 /// that the source is in (theory.md (A8)). They are empty in fluid, and where that rock is too thin.
