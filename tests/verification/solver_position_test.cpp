@@ -4,6 +4,7 @@
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
 #include "solver/simulation.hpp"
+#include "solver/sweep/point_weights.hpp"
 #include "stack_scene.hpp"
 
 namespace slipwave::solver {
@@ -174,6 +175,101 @@ TEST(SourceAndReceivers, AtAnInterfaceOfRocksRecordTheExactMotion) {
         EXPECT_LT(errors[n], 0.01) << cfl << ", " << n;
       }
     }
+  }
+}
+
+/// Two rocks with a level interface between rows, from the plane x = 0 to one side or to both, and a force
+/// on the interface `source_x_m` away, with its mirror image where there is no mirror.
+template <int D>
+Gather at_a_plane_of_symmetry(bool whole, int axis, double source_x_m) {
+  constexpr std::int64_t half = 24, rows = 20;
+  const double h = 5;
+  Grid<D> grid;
+  grid.spacing_m = h;
+  grid.shape.fill(rows), grid.origin_m.fill(0);
+  grid.shape[0] = whole ? 2 * half : half;
+  if (whole) grid.origin_m[0] = -double(half) * h;
+  Scene<D> scene;
+  auto& medium = scene.model.medium;
+  medium = {Field<D>(grid, 3300), Field<D>(grid, 1750), Field<D>(grid, 2530)};
+  for (std::int64_t n = 0; n < grid.size(); ++n)
+    if (grid.index(n)[D - 1] < rows / 2) {
+      const auto at = grid.index(n);
+      medium.vp(at) = 2000, medium.vs(at) = 1100, medium.rho(at) = 1930;
+    }
+  scene.model.fracture = Field<D, std::uint8_t>(grid);
+  const auto on_interface = [&](double x_m) {
+    Point<D> place;
+    place.fill(double(rows) * h / 2);
+    place[0] = x_m;
+    return place;
+  };
+  PointForce<D> force;
+  force.vector[std::size_t(axis)] = 1;
+  auto image = force;
+  if (axis == 0) image.vector[0] = -1;
+  const auto wavelet = parse_wavelet("ricker:25");
+  scene.survey.sources = {{on_interface(source_x_m), force, wavelet, 1e6}};
+  if (whole) scene.survey.blended = {{{on_interface(-source_x_m), image, wavelet, 1e6}}};
+  for (const double cell : {0., 0.5, 1.2, 3., 4.4, 9.})
+    scene.survey.receivers_m.push_back(on_interface(cell * h));
+  for (int of = 0; of < D; ++of) scene.edges[of] = {EdgeLaw::rigid, EdgeLaw::rigid};
+  if (!whole) scene.edges[0][0] = EdgeLaw::mirror;
+  scene.numerics.double_precision = true;
+  scene.recording = {{Component::vx, Component::vz}, 0.08, 0.001};
+  check(scene);
+  return shoot(scene, 1);
+}
+
+// Proves (A24).
+/// A point on an interface may have images of its terms beyond a plane of symmetry, in any of the columns
+/// that it reads: half of a model records what the whole does.
+template <int D>
+void expect_half_records_what_the_whole_does() {
+  for (const int axis : {0, D - 1})
+    for (const double source_x_m : {2.5, 9., 60.}) {
+      const auto whole = at_a_plane_of_symmetry<D>(true, axis, source_x_m),
+                 half = at_a_plane_of_symmetry<D>(false, axis, source_x_m);
+      double largest = 0, difference = 0;
+      for (std::size_t n = 0; n < whole.traces.size(); ++n)
+        for (std::size_t k = 0; k < whole.traces[n].samples.size(); ++k) {
+          const double one = half.traces[n].samples[k], other = whole.traces[n].samples[k];
+          largest = std::max(largest, std::abs(other));
+          difference = std::max(difference, std::abs(one - other));
+        }
+      EXPECT_GT(largest, 0);
+      EXPECT_LT(difference, 1e-6 * largest) << axis << ", " << source_x_m;  // samples are single
+    }
+}
+TEST(SourceAndReceivers, OnAnInterfaceBesideAPlaneOfSymmetryAreThoseOfTheWhole) {
+  expect_half_records_what_the_whole_does<2>();
+  expect_half_records_what_the_whole_does<3>();
+}
+
+/// Beside any sides points on an interface read and add to cells of the model.
+TEST(SourceAndReceivers, OnAnInterfaceBesideASideStayWithinTheModel) {
+  constexpr std::int64_t cells = 30;
+  auto medium = uniform_medium(cells, cells, 5, {3300, 1750, 2530});
+  for (std::int64_t k = 0; k < cells / 2; ++k)
+    for (std::int64_t i = 0; i < cells; ++i)
+      medium.vp({i, k}) = 2000, medium.vs({i, k}) = 1100, medium.rho({i, k}) = 1930;
+  for (const auto law : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror}) {
+    auto domain = make_domain(medium, edges_all(law), 1);
+    domain.steps = {&medium, 1e-3, 2};
+    const Layout<2> layout(domain.grid.shape, FieldRows<2>::count);
+    const auto within = [&](const std::vector<ValueWeight>& weights) {
+      for (const auto& value : weights)
+        if (value.place < 0 || value.place % layout.row_pitch() >= cells) return false;
+      return true;
+    };
+    for (const double cell : {0., 0.5, 1.5, 3.2, 12., 29.8})
+      for (const int row : {0, 1}) {
+        const Point<2> place = {cell * 5, 75};
+        EXPECT_TRUE(within(row_weights<2>(layout, domain, place, row, Side::solid)))
+            << int(law) << ' ' << cell;
+        EXPECT_TRUE(within(source_weights<2>(layout, domain, place, row, Side::solid)))
+            << int(law) << ' ' << cell;
+      }
   }
 }
 

@@ -224,63 +224,73 @@ std::vector<double> errors_below_surface(const Domain<D>& domain, const Index<D>
   return extension_errors(sweeps, {{0, 1}, {}}).v[1];
 }
 
-/// What velocities lie off beside an interface of rocks that steps make a kink at (A24), as terms of fields
-/// of the cells `before` and `behind` its face and beside them.
+/// What a sum of velocities over cells `across`, on a side of an interface of rocks that steps make a kink
+/// at, lies off (A24), as terms of fields of the cells on both sides of its face.
 template <int D>
 class InterfaceErrors {
  public:
-  InterfaceErrors(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity)
-      : domain_(domain), axis_(axis), velocity_(velocity), cells_{behind, behind} {
-    --cells_[0][std::size_t(axis)];
+  InterfaceErrors(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity,
+                  const std::vector<CellWeight>& across, int side)
+      : domain_(domain), axis_(axis), velocity_(velocity), behind_(behind[std::size_t(axis)]) {
     const int pair = pair_of<D>(axis, velocity);
     const auto& impedance = domain.impedance_of_pair(axis, pair);
     SweepsAcross sweeps{domain.order, {}, {}, axis, splitting(D, domain.steps.time_order)};
-    for (const int side : sides) {
-      const auto& cell = cells_[std::size_t(side)];
-      const double z = impedance(cell), courant = domain.courant(cell, axis, pair);
-      z_[std::size_t(side)] = sweeps.impedance[std::size_t(side)] = z;
-      courant_[std::size_t(side)] = sweeps.courant[std::size_t(side)] = courant;
+    auto &z = sweeps.impedance, &courant = sweeps.courant;
+    for (const auto n : {0U, 1U}) {
+      const auto cell = beside(behind, n);
+      z[n] = impedance(cell);
+      courant[n] = domain.courant(cell, axis, pair);
     }
-    of_v_ = extension_errors(sweeps, {{1 / z_[0], 0}, {}});
-    of_s_ = extension_errors(sweeps, {{}, {z_[0], 0}});
-  }
-
-  /// Returns those of a sum over cells on a side of the face, with the sign changed: none where rocks beside
-  /// these cells differ.
-  std::vector<SurfaceTerm<D>> terms(const std::vector<CellWeight>& across, int side) const {
+    const auto errors_of_v = extension_errors(sweeps, {{1 / z[0], 0}, {}}),
+               errors_of_s = extension_errors(sweeps, {{}, {z[0], 0}});
     const auto own = std::size_t(side);
-    const auto last = cells_[own][std::size_t(axis_)];
-    const double of_v = weighted(across, of_v_.v[own], last), of_s = weighted(across, of_s_.v[own], last);
+    const auto last = behind_ - (side == 0 ? 1 : 0);
+    const double of_v = weighted(across, errors_of_v.v[own], last),
+                 of_s = weighted(across, errors_of_s.v[own], last);
     // v and s behind the face less those before it tell the rates of traction and motion of the face.
-    const double kink = 1 / courant_[0] - 1 / courant_[1];
+    const double kink = 1 / courant[0] - 1 / courant[1];
     SmallMatrix<2> told{};
     for (const auto n : {0U, 1U}) {
-      told[0][0] += 0.5 / (courant_[n] * z_[n]), told[1][1] += 0.5 * z_[n] / courant_[n];
-      const double sign = n == 0 ? -1 : 1;
-      told[0][0] += sign * kink * of_v_.v[n][0], told[1][0] += sign * kink * of_s_.v[n][0];
-      told[0][1] += sign * kink * of_v_.s[n][0], told[1][1] += sign * kink * of_s_.s[n][0];
+      const double sign = sign_of(n);
+      told[0][0] += 0.5 / (courant[n] * z[n]) + sign * kink * errors_of_v.v[n][0];
+      told[1][1] += 0.5 * z[n] / courant[n] + sign * kink * errors_of_s.s[n][0];
+      told[1][0] += sign * kink * errors_of_s.v[n][0];
+      told[0][1] += sign * kink * errors_of_v.s[n][0];
     }
-    const auto [x, y] = solved(told, {-of_v * kink, -of_s * kink});
-    const double jump_v = of_v_.v[1][0] - of_v_.v[0][0], jump_s = of_s_.v[1][0] - of_s_.v[0][0],
-                 other_v = of_v_.s[1][0] - of_v_.s[0][0], other_s = of_s_.s[1][0] - of_s_.s[0][0];
-    std::vector<SurfaceTerm<D>> all;
-    bool complete = true;
+    const auto [of_jump_v, of_jump_s] = solved(told, {-of_v * kink, -of_s * kink});
+    const auto jump = [](const std::array<std::vector<double>, 2>& of) { return of[1][0] - of[0][0]; };
+    of_jump_ = {of_jump_v, of_jump_s};
     for (const auto n : {0U, 1U}) {
-      const double sign = n == 0 ? -1 : 1;
-      const double load = x * (0.5 - sign * z_[n] * jump_v) - sign * z_[n] * (y * other_v + of_v),
-                   thrust = y * (0.5 - sign * other_s / z_[n]) - sign / z_[n] * (x * jump_s + of_s);
-      all.push_back({cells_[n], FieldRows<D>::velocity(velocity_), sign * x});
-      all.push_back({cells_[n], stress(axis_, velocity_), sign * y});
-      complete &= add_along(cells_[n], load, thrust, all);
+      const double sign = sign_of(n);
+      load_[n] = of_jump_v * (0.5 - sign * z[n] * jump(errors_of_v.v)) -
+                 sign * z[n] * (of_jump_s * jump(errors_of_v.s) + of_v);
+      thrust_[n] = of_jump_s * (0.5 - sign * jump(errors_of_s.s) / z[n]) -
+                   sign / z[n] * (of_jump_v * jump(errors_of_s.v) + of_s);
     }
-    return complete ? all : std::vector<SurfaceTerm<D>>();
+  }
+
+  /// Returns those where a cell lies along the interface, with the sign changed: none where rocks beside
+  /// its cells differ.
+  std::vector<SurfaceTerm<D>> terms(const Index<D>& at) const {
+    std::vector<SurfaceTerm<D>> all;
+    for (const auto n : {0U, 1U}) {
+      const auto cell = beside(at, n);
+      all.push_back({cell, FieldRows<D>::velocity(velocity_), sign_of(n) * of_jump_[0]});
+      all.push_back({cell, stress(axis_, velocity_), sign_of(n) * of_jump_[1]});
+      if (!add_along(cell, load_[n], thrust_[n], all)) return {};
+    }
+    return all;
   }
 
  private:
-  static constexpr std::array<int, 2> sides{0, 1};
+  static double sign_of(std::size_t side) { return side == 0 ? -1 : 1; }
   static int stress(int one, int other) {
     return one == other ? FieldRows<D>::normal_stress(one)
                         : FieldRows<D>::shear_stress(std::min(one, other), std::max(one, other));
+  }
+  Index<D> beside(Index<D> at, std::size_t side) const {
+    at[std::size_t(axis_)] = behind_ - (side == 0 ? 1 : 0);
+    return at;
   }
   /// What sweeps along the interface add in a cell to the traction on it, times `load`, and to the motion.
   bool add_along(const Index<D>& cell, double load, double thrust, std::vector<SurfaceTerm<D>>& all) const {
@@ -308,9 +318,8 @@ class InterfaceErrors {
 
   const Domain<D>& domain_;
   int axis_, velocity_;
-  std::array<Index<D>, 2> cells_;
-  std::array<double, 2> z_{}, courant_{};
-  PairBeside<std::vector<double>> of_v_, of_s_;  // of mismatches 1 of slopes of v and s
+  std::int64_t behind_;
+  std::array<double, 2> of_jump_{}, load_{}, thrust_{};  // of v and s across the face; by side of it
 };
 
 /// Whether a velocity has a kink at the face before a cell: a strong interface of isotropic rocks in level
@@ -351,19 +360,22 @@ void add_interface_correction(const Layout<D>& layout, const Domain<D>& domain, 
   behind[axis] = last[axis] + (side ? 1 : 0);
   if (behind[axis] < 1 || behind[axis] >= domain.grid.shape[axis] || !kinks(domain, behind, axis, row))
     return;
-  const auto terms = InterfaceErrors<D>(domain, behind, axis, row)
-                         .terms(axis_weights(domain.grid.position(axis, point_m[axis]), across), 1 - side);
+  const InterfaceErrors<D> errors(domain, behind, axis, row,
+                                  axis_weights(domain.grid.position(axis, point_m[axis]), across), 1 - side);
+  // The interface's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
   on_edge[axis] = domain.grid.centre(axis, last[axis]);
   auto cells = usable;
   cells[std::size_t(axis)] = {last[axis], last[axis]};
-  for (const auto& at : point_weights<D>(domain.grid, on_edge, cells))
-    for (auto term : terms) {
-      for (int along = 0; along < D; ++along)
-        if (along != axis) term.cell[along] += at.cell[along] - centre[along];
-      weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
-                         at.weight * term.weight});
-    }
+  std::vector<ValueWeight> all;
+  for (const auto& at : point_weights<D>(domain.grid, on_edge, cells)) {
+    const auto terms = errors.terms(at.cell);
+    if (terms.empty()) return;
+    for (const auto& term : terms)
+      all.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
+                     at.weight * term.weight});
+  }
+  weights.insert(weights.end(), all.begin(), all.end());
 }
 
 /// The correction of velocity of the images beyond a free surface of a solid, and for forces what the plain
