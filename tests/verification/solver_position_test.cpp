@@ -4,6 +4,7 @@
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
 #include "solver/simulation.hpp"
+#include "solver/sweep/extension_errors.hpp"
 #include "solver/sweep/point_weights.hpp"
 #include "stack_scene.hpp"
 
@@ -178,6 +179,70 @@ TEST(SourceAndReceivers, AtAnInterfaceOfRocksRecordTheExactMotion) {
   }
 }
 
+// Proves (A24).
+/// Forces on an interface of rocks, along it and across, make motion elsewhere of second order.
+TEST(SourceAndReceivers, OnAnInterfaceOfRocksForcesActToSecondOrder) {
+  for (const auto& force : {Point<2>{1, 0}, Point<2>{0, 1}}) {
+    std::array<double, 2> worst{};
+    for (const int half : {0, 1}) {
+      StackScene stack{"two rocks", {{2000, 1100, 1930}, {3300, 1750, 2530}}, {0}};
+      stack.source_b = 1e-5, stack.force = force, stack.peak_hz = 25, stack.duration_s = 0.2;
+      stack.spacing_m = half ? 1 : 2, stack.margin_m = 40;
+      for (const double b : {-30., 30.}) stack.receivers.push_back({100, b});
+      for (const double error : errors_of(stack))
+        worst[std::size_t(half)] = std::max(worst[std::size_t(half)], error);
+    }
+    EXPECT_GT(observed_order(worst[0], worst[1]), 1.5) << force[0];
+    EXPECT_LT(worst[1], 0.01) << force[0];
+  }
+}
+
+/// Motion along x that grows with x, otherwise on both sides of a level interface, makes slopes across;
+/// returns by how much the field beside it lies off them, of the largest, less what extension_errors() says.
+double not_told(const Rock& above, double courant, const std::array<double, 2>& along) {
+  using L = Lab<double>;
+  constexpr std::int64_t nx = 321, nz = 300, face = 150, middle = nx / 2;
+  constexpr int told_rows = 4, straight = 10, straight_to = 14;
+  const Rock below{2500, 1300, 2200};
+  const double h = 2, dt_s = courant * h / below.vp;
+  auto medium = uniform_medium(nx, nz, h, below);
+  for (std::int64_t k = 0; k < face; ++k)
+    for (std::int64_t i = 0; i < nx; ++i) put(medium, {i, k}, above);
+  L lab(medium, edges_all(EdgeLaw::rigid), 5, dt_s);
+  for (std::int64_t k = 0; k < nz; ++k)
+    for (std::int64_t i = 0; i < nx; ++i) lab(L::vx, i, k) = along[k < face ? 0 : 1] * double(i - middle);
+  const SweepsAcross sweeps{
+      5, {above.vp * above.rho, below.vp * below.rho}, {above.vp * dt_s / h, courant}, 1, splitting(2, 2)};
+  lab.steps(std::int64_t(60 / sweeps.courant[0]));
+  const auto row = [&](std::size_t side, int n) { return side == 0 ? face - 1 - n : face + n; };
+  const auto slope = [&](L::Row of, std::size_t side) {
+    const double rise = lab(of, middle, row(side, straight_to)) - lab(of, middle, row(side, straight));
+    return (side == 0 ? -1 : 1) * rise / (straight_to - straight);
+  };
+  const PairBeside<double> slopes{{slope(L::vz, 0), slope(L::vz, 1)}, {slope(L::szz, 0), slope(L::szz, 1)}};
+  std::array<double, 2> known{};
+  if (above.vs == 0) known = {-along[0], -(1 - 2 * std::pow(below.vs / below.vp, 2)) * along[1]};
+  const auto told = extension_errors(sweeps, slopes, known);
+  double largest = 0, difference = 0;
+  for (const std::size_t side : {0, 1})
+    for (int n = 0; n < told_rows; ++n) {
+      const double off = lab(L::vz, middle, row(side, n)) - lab(L::vz, middle, row(side, straight)) -
+                         (side == 0 ? 1 : -1) * slopes.v[side] * (straight - n);
+      largest = std::max(largest, std::abs(off));
+      difference = std::max(difference, std::abs(off - told.v[side][std::size_t(n)]));
+    }
+  return difference / largest;
+}
+
+// Proves (A24).
+TEST(ExtensionErrors, AreThoseThatStepsLeaveBesideAnInterface) {
+  for (const double courant : {0.9, 0.3}) {
+    EXPECT_LT(not_told({1500, 800, 1000}, courant, {1, 1}), 0.02) << courant;
+    for (const auto& along : {std::array{1., 0.}, std::array{0., 1.}})
+      EXPECT_LT(not_told({1500, 0, 1000}, courant, along), 0.02) << courant << ", " << along[0];
+  }
+}
+
 /// Two rocks with a level interface between rows, from the plane x = 0 to one side or to both, and a force
 /// on the interface `source_x_m` away, with its mirror image where there is no mirror.
 template <int D>
@@ -221,7 +286,6 @@ Gather at_a_plane_of_symmetry(bool whole, int axis, double source_x_m) {
   return shoot(scene, 1);
 }
 
-// Proves (A24).
 /// A point on an interface may have images of its terms beyond a plane of symmetry, in any of the columns
 /// that it reads: half of a model records what the whole does.
 template <int D>

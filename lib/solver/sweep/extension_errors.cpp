@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <numeric>
 
 #include "base/band_system.hpp"
 #include "solver/kernels/reconstruction.hpp"
+#include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/stencils.hpp"
 
 namespace slipwave::solver {
@@ -20,19 +23,30 @@ constexpr int unknowns = 4 * rows;
 
 constexpr std::size_t place(std::int64_t n) { return std::size_t(n); }
 
+/// Rows of what a sweep makes of the values of all cells; sweeps by their part of the step.
+using Matrix = std::vector<std::vector<double>>;
+using AdjointSweeps = std::map<double, Matrix>;
+
 /// Cells in a line, from -1 on before a face and from 0 on behind it; beyond `rows` on each side those with
-/// the slopes themselves.
+/// the slopes themselves, and as far as sweeps of these read what is swept.
 class Column {
  public:
-  Column(const SweepsAcross& of, const PairBeside<double>& slopes)
+  Column(const SweepsAcross& of, const PairBeside<double>& slopes, const std::array<double, 2>& known,
+         AdjointSweeps& adjoint)
       : of_(&of),
         slopes_(&slopes),
         reach_(reach_of(of.order)),
-        held_(rows + 1 + reach_),
+        swept_(rows + reach_ + 1),
+        held_(swept_ + 1 + reach_),
         v_(2 * std::size_t(held_)),
-        s_(v_.size()) {
+        s_(v_.size()),
+        adjoint_(&adjoint) {
     for (int n = -held_; n < held_; ++n)
       v(n) = slopes.v[side(n)] * (n + 0.5), s(n) = slopes.s[side(n)] * (n + 0.5);
+    const auto &z = of.impedance, &c = of.courant;
+    const double both = z[0] + z[1];
+    bend_ = (z[0] * known[0] - z[1] * known[1]) / both;
+    left_ = traction_share / 2 * (c[1] * z[1] * known[1] - c[0] * z[0] * known[0]);
   }
   /// The values that may lie off, and whether there is anything.
   double& off(int n) { return n < 2 * rows ? v(n - rows) : s(n - 3 * rows); }
@@ -69,21 +83,25 @@ class Column {
   /// A sweep across, which back in time is one forward of -v.
   void across(double fraction) {
     const auto turn = [&] {
-      if (fraction < 0)
-        for (auto& motion : v_) motion = -motion;
+      if (fraction > 0) return;
+      for (auto& motion : v_) motion = -motion;
+      bend_ = -bend_, left_ = -left_;
     };
     turn();
-    forward(std::abs(fraction), fraction < 0 ? -1 : 1);
+    const double turned = fraction < 0 ? -1 : 1;
+    if (of_->adjoint)
+      adjoint(std::abs(fraction), turned);
+    else
+      forward(std::abs(fraction), turned);
     turn();
   }
   /// Cells with the slopes, those of v times `turned`, keep them.
   void forward(double fraction, double turned) {
-    std::array<double, 2 * rows + 2> up{}, down{};
-    for (int n = -rows - 1; n <= rows; ++n)
-      if (!empty(n)) reconstruct(n, fraction, up[place(n + rows + 1)], down[place(n + rows + 1)]);
-    std::array<double, 2 * rows + 1> motion{}, traction{};
-    for (int face = -rows; face <= rows; ++face) {
-      const auto k = place(face + rows);
+    std::vector<double> up(place(2 * swept_ + 2)), down(up), motion(up), traction(up);
+    for (int n = -swept_ - 1; n <= swept_; ++n)
+      if (!empty(n)) reconstruct(n, fraction, up[place(n + swept_ + 1)], down[place(n + swept_ + 1)]);
+    for (int face = -swept_; face <= swept_; ++face) {
+      const auto k = place(face + swept_);
       const double before = impedance(face - 1), behind = impedance(face);
       if (before + behind == 0) continue;
       motion[k] = (up[k] + down[k + 1]) / (before + behind);
@@ -91,12 +109,52 @@ class Column {
     }
     for (int n = -held_; n < held_; ++n) {
       if (empty(n)) continue;
-      const auto k = place(n + rows);
-      if (n >= -rows && n < rows)
+      const auto k = place(n + swept_);
+      if (n >= -swept_ && n < swept_)
         add(n, fraction, traction[k + 1] - traction[k], motion[k + 1] - motion[k]);
       else
         add(n, fraction, slopes_->s[side(n)], turned * slopes_->v[side(n)]);
     }
+  }
+  /// The sweep that is adjoint in the energy of the fields, which weighs v with Z/c and s with 1/(Z c), run
+  /// back in time: what it makes of the values of all cells, v first.
+  void adjoint(double fraction, double turned) {
+    auto& sweep = (*adjoint_)[fraction];
+    if (sweep.empty()) sweep = adjoint_sweep(fraction);
+    auto values = v_;
+    values.insert(values.end(), s_.begin(), s_.end());
+    for (int n = -held_; n < held_; ++n) {
+      if (empty(n)) continue;
+      if (n >= -rows && n < rows)
+        v(n) = dot(sweep[place(held_ + n)], values), s(n) = dot(sweep[place(3 * held_ + n)], values);
+      else
+        add(n, fraction, slopes_->s[side(n)], turned * slopes_->v[side(n)]);
+    }
+  }
+  static double dot(const std::vector<double>& row, const std::vector<double>& values) {
+    return std::inner_product(row.begin(), row.end(), values.begin(), 0.);
+  }
+  Matrix adjoint_sweep(double fraction) const {
+    const PairBeside<double> none;
+    const int all = 2 * held_;
+    const auto energy = [&](int value) {
+      const int n = value % all - held_;
+      return (value < all ? impedance(n) : 1 / impedance(n)) / courant(n);
+    };
+    const auto values = 2 * place(all);
+    Matrix sweep(values, std::vector<double>(values));
+    for (int from = 0; from < 2 * all; ++from) {
+      if (empty(from % all - held_)) continue;
+      Column column(*of_, none, {}, *adjoint_);
+      (from < all ? column.v_ : column.s_)[place(from % all)] = 1;
+      column.forward(fraction, 1);
+      for (int to = 0; to < 2 * all; ++to) {
+        const double value = (to < all ? column.v_ : column.s_)[place(to % all)];
+        const double back = (from < all) == (to < all) ? 1 : -1;
+        if (value != 0) sweep[place(from)][place(to)] = back * value * energy(to) / energy(from);
+      }
+    }
+    return sweep;
   }
   void reconstruct(int n, double fraction, double& up, double& down) {
     const int cells = n < 0 ? -1 - n : n;
@@ -109,6 +167,10 @@ class Column {
         const int at = n + k, own = side(at) == side(n) ? at : -1 - at;
         v_about[place(k + reach)] = v(own) + 2 * share * (v(at) - v(own));
         s_about[place(k + reach)] = s(own) + 2 * (1 - share) * (s(at) - s(own));
+        if (own == at) continue;
+        // (E11a)
+        v_about[place(k + reach)] += std::abs(2 * at + 1) * bend_;
+        s_about[place(k + reach)] += (n < 0 ? 2 : -2) * (1 - share) * fraction * left_;
       }
       reconstruct_cell<Order>(&v_about[reach], &s_about[reach], 1, impedance(n), fraction * courant(n), up,
                               down);
@@ -117,15 +179,17 @@ class Column {
 
   const SweepsAcross* of_;
   const PairBeside<double>* slopes_;
-  int reach_, held_;
+  int reach_, swept_, held_;
+  double bend_ = 0, left_ = 0;  // of v and s in extensions
   std::vector<double> v_, s_;
+  AdjointSweeps* adjoint_;
 };
 
-}  // namespace
-
 /// A step is linear in what cells lie off and leaves that as it is: one system of equations.
-PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const PairBeside<double>& slopes) {
-  Column exact(of, slopes);
+PairBeside<std::vector<double>> found_errors(const SweepsAcross& of, const PairBeside<double>& slopes,
+                                             const std::array<double, 2>& known) {
+  AdjointSweeps adjoint;
+  Column exact(of, slopes, known, adjoint);
   auto stepped = exact;
   stepped.step();
   BandSystem<unknowns> equations(unknowns);
@@ -149,6 +213,23 @@ PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const P
       errors.s[side].push_back(found[at + 2 * std::size_t(rows)].real());
     }
   return errors;
+}
+
+}  // namespace
+
+/// Many points ask for those of one interface, so each thread keeps some.
+PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const PairBeside<double>& slopes,
+                                                 const std::array<double, 2>& known) {
+  constexpr std::size_t most_kept = 256;
+  thread_local std::map<std::vector<double>, PairBeside<std::vector<double>>> kept;
+  std::vector<double> asked{double(of.order), double(of.axis), double(of.adjoint)};
+  for (const auto& pair : {of.impedance, of.courant, slopes.v, slopes.s, known})
+    asked.insert(asked.end(), pair.begin(), pair.end());
+  for (const auto& sweep : of.of_step) asked.insert(asked.end(), {double(sweep.axis), sweep.fraction});
+  const auto found = kept.find(asked);
+  if (found != kept.end()) return found->second;
+  if (kept.size() == most_kept) kept.clear();
+  return kept[asked] = found_errors(of, slopes, known);
 }
 
 }  // namespace slipwave::solver

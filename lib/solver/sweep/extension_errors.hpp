@@ -15,6 +15,7 @@ struct SweepsAcross {
   std::array<double, 2> courant{};    // of the wave in a whole step
   int axis = 0;
   std::vector<SweepFraction> of_step{};
+  bool adjoint = false;  // of the step that forces answer to, adjoint in the energy and run back in time
 };
 
 /// A pair (v, s), by side of a face; of cells from the face on, or a slope per cell.
@@ -25,7 +26,9 @@ struct PairBeside {
 
 /// Returns by how much pairs of cells beside a face lie off ones with these slopes, where sweeps along the
 /// face take away what sweeps across add (theory.md (A23)): extensions (E10) have the mean slope of both
-/// sides, (E11) none of v.
-PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const PairBeside<double>& slopes);
+/// sides, (E11) none of v. `known` is the part of the slopes of v by motion along fluid that touches solid,
+/// which extensions are given (E11a).
+PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const PairBeside<double>& slopes,
+                                                 const std::array<double, 2>& known = {});
 
 }  // namespace slipwave::solver

@@ -13,9 +13,6 @@
 namespace slipwave::solver {
 namespace {
 
-/// The share that is taken out of what half a sweep along the interface of fluid and solid leaves on it: with
-/// one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
-constexpr double traction_share = 0.5;
 /// Ratio of P impedances from which a fluid is too light to hold a wave at the interface: over gas the energy
 /// of thousands of steps would rise by a few millionths of what is left.
 constexpr double gas_ratio = 100;
@@ -89,6 +86,13 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   return extends_far(domain, above, -1) && extends_far(domain, below, 1);
 }
 
+/// Whether rows (in 3-D planes) of faces may be corrected: stairs of a regular grid are of first order
+/// anyway, and its axes are alike.
+template <int D>
+bool followed(const Domain<D>& domain, std::int64_t row) {
+  return curvilinear_face(domain, row) || spans_grid(domain, row);
+}
+
 template <int D>
 Index<D> above(Index<D> at) {
   --at[D - 1];
@@ -106,6 +110,11 @@ std::array<Real, std::size_t(D)> difference_along(const std::int64_t* cells, con
 
 }  // namespace
 
+template <int D>
+bool corrects_interface(const Domain<D>& domain, const Index<D>& below) {
+  return corrected(domain, below) && followed(domain, below[D - 1]);
+}
+
 template <int D, class Real>
 InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain,
                                                     const Metric<D, Real>& metric)
@@ -118,8 +127,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
   const bool any = std::any_of(s_waves.begin(), s_waves.end(), [](float z) { return z == 0; });
   first_.assign(2, 0);
   for (std::int64_t row = 1; row < shape[z]; ++row) {
-    // Stairs of a regular grid are of first order anyway, and its axes are alike.
-    const bool wanted = any && (curvilinear_face(domain, row) || spans_grid(domain, row));
+    const bool wanted = any && followed(domain, row);
     for (std::int64_t n = 0; wanted && n < plane.size(); ++n) {
       Index<D> at = plane.index(n);
       at[z] = row;
@@ -268,6 +276,7 @@ void InterfaceCorrections<D, Real>::update_all(const State<D, Real>& state) {
   for (std::size_t n = 0; n < slots_.size(); ++n) update_slot(state, n);
 }
 
+SLIPWAVE_INSTANTIATE_D(FUNCTION, corrects_interface);
 SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class InterfaceCorrections);
 
 }  // namespace slipwave::solver

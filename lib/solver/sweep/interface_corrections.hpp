@@ -12,6 +12,14 @@
 
 namespace slipwave::solver {
 
+/// The share that is taken out of what half a sweep along the interface of fluid and solid leaves on it: with
+/// one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
+inline constexpr double traction_share = 0.5;
+
+/// Whether extensions across the face before a cell along z are corrected (InterfaceCorrections).
+template <int D>
+bool corrects_interface(const Domain<D>& domain, const Index<D>& below);
+
 /// Corrections of the extensions across interfaces inside the grid that follow a row of faces (theory.md
 /// (E11a)): in solids and fluids that touch, velocities bend with what happens along the interface, and
 /// sweeps along it leave tractions on both sides that differ when a sweep across begins. By place ("slot") of

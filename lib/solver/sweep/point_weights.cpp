@@ -12,6 +12,7 @@
 #include "scene/splitting.hpp"
 #include "solver/sweep/extension_errors.hpp"
 #include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
@@ -230,42 +231,50 @@ template <int D>
 class InterfaceErrors {
  public:
   InterfaceErrors(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity,
-                  const std::vector<CellWeight>& across, int side)
+                  const std::vector<CellWeight>& across, int side, bool of_force)
       : domain_(domain), axis_(axis), velocity_(velocity), behind_(behind[std::size_t(axis)]) {
     const int pair = pair_of<D>(axis, velocity);
     const auto& impedance = domain.impedance_of_pair(axis, pair);
     SweepsAcross sweeps{domain.order, {}, {}, axis, splitting(D, domain.steps.time_order)};
     auto &z = sweeps.impedance, &courant = sweeps.courant;
+    sweeps.adjoint = of_force;
     for (const auto n : {0U, 1U}) {
       const auto cell = beside(behind, n);
       z[n] = impedance(cell);
       courant[n] = domain.courant(cell, axis, pair);
     }
-    const auto errors_of_v = extension_errors(sweeps, {{1 / z[0], 0}, {}}),
-               errors_of_s = extension_errors(sweeps, {{}, {z[0], 0}});
+    // What slopes of 1 across, by side, and those of v that extensions are given (E11a) make of the sum and
+    // of the differences of v and s over the face.
     const auto own = std::size_t(side);
-    const auto last = behind_ - (side == 0 ? 1 : 0);
-    const double of_v = weighted(across, errors_of_v.v[own], last),
-                 of_s = weighted(across, errors_of_s.v[own], last);
-    // v and s behind the face less those before it tell the rates of traction and motion of the face.
-    const double kink = 1 / courant[0] - 1 / courant[1];
-    SmallMatrix<2> told{};
+    const auto told = [&](const PairBeside<double>& slopes, const std::array<double, 2>& given) {
+      const auto off = extension_errors(sweeps, slopes, given);
+      return std::array{weighted(across, off.v[own], beside(behind, own)[std::size_t(axis)]),
+                        (slopes.v[0] + slopes.v[1]) / 2 + off.v[1][0] - off.v[0][0],
+                        (slopes.s[0] + slopes.s[1]) / 2 + off.s[1][0] - off.s[0][0]};
+    };
+    const bool corrected = !of_force && axis == D - 1 && corrects_interface(domain, behind);
+    std::array<std::array<double, 3>, 2> of_v{}, of_s{}, of_given{};
+    std::array<double, 3> of_traction{}, of_motion{};
     for (const auto n : {0U, 1U}) {
-      const double sign = sign_of(n);
-      told[0][0] += 0.5 / (courant[n] * z[n]) + sign * kink * errors_of_v.v[n][0];
-      told[1][1] += 0.5 * z[n] / courant[n] + sign * kink * errors_of_s.s[n][0];
-      told[1][0] += sign * kink * errors_of_s.v[n][0];
-      told[0][1] += sign * kink * errors_of_v.s[n][0];
+      if (z[n] == 0) continue;
+      const auto slope = unit_vector<2>(n);
+      of_v[n] = told({slope, {}}, {});
+      of_s[n] = told({{}, slope}, {});
+      if (corrected) of_given[n] = told({}, slope);
+      for (std::size_t k = 0; k < 3; ++k) {
+        of_traction[k] += of_v[n][k] / (courant[n] * z[n]);
+        of_motion[k] += of_s[n][k] * z[n] / courant[n];
+      }
     }
-    const auto [of_jump_v, of_jump_s] = solved(told, {-of_v * kink, -of_s * kink});
-    const auto jump = [](const std::array<std::vector<double>, 2>& of) { return of[1][0] - of[0][0]; };
-    of_jump_ = {of_jump_v, of_jump_s};
+    // The differences tell by how much traction and motion of the face change in a step. Where fluid slides
+    // along, the traction is none.
+    if (z[0] > 0 && z[1] > 0)
+      of_jump_ = solved(SmallMatrix<2>{{{of_traction[1], of_traction[2]}, {of_motion[1], of_motion[2]}}},
+                        {-of_traction[0], -of_motion[0]});
+    const std::array<double, 3> all{1, of_jump_[0], of_jump_[1]};
     for (const auto n : {0U, 1U}) {
-      const double sign = sign_of(n);
-      load_[n] = of_jump_v * (0.5 - sign * z[n] * jump(errors_of_v.v)) -
-                 sign * z[n] * (of_jump_s * jump(errors_of_v.s) + of_v);
-      thrust_[n] = of_jump_s * (0.5 - sign * jump(errors_of_s.s) / z[n]) -
-                   sign / z[n] * (of_jump_v * jump(errors_of_s.v) + of_s);
+      load_[n] = dot_product(all, of_v[n]) + dot_product(all, of_given[n]);
+      if (z[1 - n] > 0) thrust_[n] = dot_product(all, of_s[n]);
     }
   }
 
@@ -275,8 +284,9 @@ class InterfaceErrors {
     std::vector<SurfaceTerm<D>> all;
     for (const auto n : {0U, 1U}) {
       const auto cell = beside(at, n);
-      all.push_back({cell, FieldRows<D>::velocity(velocity_), sign_of(n) * of_jump_[0]});
-      all.push_back({cell, stress(axis_, velocity_), sign_of(n) * of_jump_[1]});
+      if (of_jump_[0] != 0)
+        all.push_back({cell, FieldRows<D>::velocity(velocity_), sign_of(n) * of_jump_[0]});
+      if (of_jump_[1] != 0) all.push_back({cell, stress(axis_, velocity_), sign_of(n) * of_jump_[1]});
       if (!add_along(cell, load_[n], thrust_[n], all)) return {};
     }
     return all;
@@ -306,10 +316,12 @@ class InterfaceErrors {
         Index<D> offset{};
         offset[std::size_t(along)] = offsets_along[k];
         const double difference = weights_along[k] * high / wide;
-        if (loads && !add_term(domain_, cell, offset, FieldRows<D>::velocity(motion),
-                               load * of_strain * difference, all))
+        if (loads && load != 0 &&
+            !add_term(domain_, cell, offset, FieldRows<D>::velocity(motion), load * of_strain * difference,
+                      all))
           return false;
-        if (!add_term(domain_, cell, offset, stress(along, velocity_), thrust * difference, all))
+        if (thrust != 0 &&
+            !add_term(domain_, cell, offset, stress(along, velocity_), thrust * difference, all))
           return false;
       }
     }
@@ -322,8 +334,8 @@ class InterfaceErrors {
   std::array<double, 2> of_jump_{}, load_{}, thrust_{};  // of v and s across the face; by side of it
 };
 
-/// Whether a velocity has a kink at the face before a cell: a strong interface of isotropic rocks in level
-/// rows, along all that steps and weights need of it.
+/// Whether the step makes a kink of a velocity at the face before a cell: a strong interface of isotropic
+/// rocks or of one and fluid in level rows, along all that steps and weights need of it.
 template <int D>
 bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity) {
   constexpr std::int64_t along_needed = widest_stencil;
@@ -331,10 +343,12 @@ bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int veloci
   --before[axis];
   const int pair = pair_of<D>(axis, velocity);
   const auto& impedance = domain.impedance_of_pair(axis, pair);
-  if (domain.anisotropic() || domain.courant(behind, axis, pair) == 0 || domain.curvilinear(behind[D - 1]) ||
-      domain.curvilinear(before[D - 1]) || !strong_interface_between(impedance(before), impedance(behind)))
+  const auto& p_waves = domain.impedance(wave_p);
+  if (domain.anisotropic() || !domain.steps.medium || p_waves(before) == 0 || p_waves(behind) == 0)
     return false;
-  if (domain.impedance(wave_s)(before) == 0 || domain.impedance(wave_s)(behind) == 0) return false;
+  if (domain.curvilinear(behind[D - 1]) || domain.curvilinear(before[D - 1]) ||
+      !strong_interface_between(impedance(before), impedance(behind)))
+    return false;
   if (domain.subdomain.other_cells && !(domain.owns(before[D - 1]) && domain.owns(behind[D - 1])))
     return false;
   const auto ends = [&](const SplitFace<D>& face) { return face.axis == axis && face.behind == behind; };
@@ -353,7 +367,7 @@ bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int veloci
 template <int D>
 void add_interface_correction(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& centre,
                               const Point<D>& point_m, const std::array<AxisCells, std::size_t(D)>& usable,
-                              int axis, int side, int row, std::vector<ValueWeight>& weights) {
+                              int axis, int side, int row, bool of_force, std::vector<ValueWeight>& weights) {
   const auto& across = usable[std::size_t(axis)];
   Index<D> last = centre, behind = centre;
   last[axis] = side ? across.high : across.low;
@@ -361,7 +375,8 @@ void add_interface_correction(const Layout<D>& layout, const Domain<D>& domain, 
   if (behind[axis] < 1 || behind[axis] >= domain.grid.shape[axis] || !kinks(domain, behind, axis, row))
     return;
   const InterfaceErrors<D> errors(domain, behind, axis, row,
-                                  axis_weights(domain.grid.position(axis, point_m[axis]), across), 1 - side);
+                                  axis_weights(domain.grid.position(axis, point_m[axis]), across), 1 - side,
+                                  of_force);
   // The interface's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
   on_edge[axis] = domain.grid.centre(axis, last[axis]);
@@ -522,7 +537,8 @@ static std::vector<ValueWeight> weights_of_value(const Layout<D>& layout, const 
         add_surface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, of_force,
                                weights);
       else
-        add_interface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, weights);
+        add_interface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, of_force,
+                                 weights);
     }
   return weights;
 }
