@@ -86,8 +86,13 @@ TEST(NextToIsotropic, InLevelRowsIsIsotropicRock) {
   // Swept as tilted rock all the same.
   auto rock = plain;
   rock.epsilon = 1e-8;
-  EXPECT_LT(relative_error(traces_of(blocks<3>({turned_by(rock, 30, 20)})), traces_of(blocks<3>({plain}))),
-            3e-5);
+  // What forces and velocities beside a sea floor are told of it (A24) stops at turned axes.
+  const auto away = [](const Material& of) {
+    auto scene = blocks<3>({of});
+    scene.survey.sources[0].position_m[2] = 92;
+    return traces_of(scene);
+  };
+  EXPECT_LT(relative_error(away(turned_by(rock, 30, 20)), away(plain)), 3e-5);
 }
 
 /// The largest difference of the traces of a sea of isotropic rocks from those of rocks next to them.

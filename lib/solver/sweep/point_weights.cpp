@@ -305,12 +305,16 @@ class InterfaceErrors {
   /// What sweeps along the interface add in a cell to the traction on it, times `load`, and to the motion.
   bool add_along(const Index<D>& cell, double load, double thrust, std::vector<SurfaceTerm<D>>& all) const {
     const double high = axis_ == D - 1 ? domain_.height(cell[D - 1]) : 1;
-    const double ratio = std::pow(domain_.impedance(wave_s)(cell) / domain_.impedance(wave_p)(cell), 2);
+    const auto c = elasticity_at(domain_, cell);
+    const auto unit = [](int of) { return unit_vector<std::size_t(D)>(std::size_t(of)); };
+    const double stiffness = christoffel<D>(c, unit(axis_))[std::size_t(axis_)][std::size_t(axis_)];
     for (int along = 0; along < D; ++along) {
       if (along == axis_ || thin(domain_, along)) continue;
       const double wide = along == D - 1 ? domain_.height(cell[D - 1]) : 1;
       const bool loads = velocity_ == axis_ || velocity_ == along;
-      const double of_strain = velocity_ == axis_ ? 1 - 2 * ratio : 1;
+      const auto by_strain = tractions<D>(c, unit(axis_), unit(along));
+      const double of_strain =
+          velocity_ == axis_ ? by_strain[std::size_t(axis_)][std::size_t(along)] / stiffness : 1;
       const int motion = velocity_ == axis_ ? along : axis_;
       for (std::size_t k = 0; k < offsets_along.size(); ++k) {
         Index<D> offset{};
@@ -334,8 +338,8 @@ class InterfaceErrors {
   std::array<double, 2> of_jump_{}, load_{}, thrust_{};  // of v and s across the face; by side of it
 };
 
-/// Whether the step makes a kink of a velocity at the face before a cell: a strong interface of isotropic
-/// rocks or of one and fluid in level rows, along all that steps and weights need of it.
+/// Whether the step makes a kink of a velocity at the face before a cell: a strong interface in level rows of
+/// rocks whose axes are those of the grid, or of one and fluid, along all that steps and weights need of it.
 template <int D>
 bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int velocity) {
   constexpr std::int64_t along_needed = widest_stencil;
@@ -344,8 +348,8 @@ bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int veloci
   const int pair = pair_of<D>(axis, velocity);
   const auto& impedance = domain.impedance_of_pair(axis, pair);
   const auto& p_waves = domain.impedance(wave_p);
-  if (domain.anisotropic() || !domain.steps.medium || p_waves(before) == 0 || p_waves(behind) == 0)
-    return false;
+  if (domain.anisotropic_cell(before) || domain.anisotropic_cell(behind)) return false;
+  if (!domain.steps.medium || p_waves(before) == 0 || p_waves(behind) == 0) return false;
   if (domain.curvilinear(behind[D - 1]) || domain.curvilinear(before[D - 1]) ||
       !strong_interface_between(impedance(before), impedance(behind)))
     return false;
