@@ -53,7 +53,7 @@ TEST(Exchange, BesideAnInterfaceOfRocksHoldsToTheOrderOfTheScheme) {
   }
 }
 
-/// There forces have errors of first order.
+/// Of second order for nearly all pairs of rocks.
 TEST(Exchange, OnAnInterfaceOfRocksHoldsTheBetterTheFinerTheCells) {
   for (const unsigned seed : seeds(1)) {
     Draw draw(seed);
