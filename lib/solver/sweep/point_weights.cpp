@@ -253,13 +253,14 @@ class InterfaceErrors {
                         (slopes.s[0] + slopes.s[1]) / 2 + off.s[1][0] - off.s[0][0]};
     };
     const bool corrected = !of_force && axis == D - 1 && corrects_interface(domain, behind);
+    const bool welded = z[0] > 0 && z[1] > 0;
     std::array<std::array<double, 3>, 2> of_v{}, of_s{}, of_given{};
     std::array<double, 3> of_traction{}, of_motion{};
     for (const auto n : {0U, 1U}) {
       if (z[n] == 0) continue;
       const auto slope = unit_vector<2>(n);
       of_v[n] = told({slope, {}}, {});
-      of_s[n] = told({{}, slope}, {});
+      if (welded) of_s[n] = told({{}, slope}, {});
       if (corrected) of_given[n] = told({}, slope);
       for (std::size_t k = 0; k < 3; ++k) {
         of_traction[k] += of_v[n][k] / (courant[n] * z[n]);
@@ -268,13 +269,13 @@ class InterfaceErrors {
     }
     // The differences tell by how much traction and motion of the face change in a step. Where fluid slides
     // along, the traction is none.
-    if (z[0] > 0 && z[1] > 0)
+    if (welded)
       of_jump_ = solved(SmallMatrix<2>{{{of_traction[1], of_traction[2]}, {of_motion[1], of_motion[2]}}},
                         {-of_traction[0], -of_motion[0]});
     const std::array<double, 3> all{1, of_jump_[0], of_jump_[1]};
     for (const auto n : {0U, 1U}) {
       load_[n] = dot_product(all, of_v[n]) + dot_product(all, of_given[n]);
-      if (z[1 - n] > 0) thrust_[n] = dot_product(all, of_s[n]);
+      thrust_[n] = dot_product(all, of_s[n]);
     }
   }
 
