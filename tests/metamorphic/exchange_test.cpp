@@ -29,7 +29,7 @@ Scene<2> two(const Rock& upper, const Rock& lower, std::int64_t face) {
 }
 
 TEST(Exchange, AcrossAContrastOfDensityHoldsAsInOneRock) {
-  for (const unsigned seed : seeds()) {
+  for (const unsigned seed : seeds(1)) {
     Draw draw(seed);
     const Rock rock = draw.rock(20);
     Rock dense = rock;
@@ -43,7 +43,7 @@ TEST(Exchange, AcrossAContrastOfDensityHoldsAsInOneRock) {
 }
 
 TEST(Exchange, BesideAnInterfaceOfRocksHoldsToTheOrderOfTheScheme) {
-  for (const unsigned seed : seeds()) {
+  for (const unsigned seed : seeds(1)) {
     Draw draw(seed);
     const Rock upper = draw.rock(22), lower = draw.rock(draw.between(32, 40));
     const double away_m = draw.between(1, 3);
@@ -76,7 +76,7 @@ TEST(Exchange, OnAnInterfaceOfRocksHoldsTheBetterTheFinerTheCells) {
 
 // Proves (A23).
 TEST(Exchange, BelowVoidHoldsToTheOrderOfTheScheme) {
-  for (const unsigned seed : seeds()) {
+  for (const unsigned seed : seeds(1)) {
     Draw draw(seed);
     const Rock rock = draw.rock(20);
     const auto scene = two(nothing, rock, 30);

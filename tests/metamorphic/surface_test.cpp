@@ -82,8 +82,8 @@ TEST(SameBed, OfOneOrTwoCellsGivesTheTracesOfSmallCells) {
     // On faces of the small cells, in quarters of a large one.
     const auto top = draw.whole(81, 83), bottom = top + draw.whole(4, 8);
     const auto filling = [&](auto, std::int64_t k) { return k < top ? upper : k < bottom ? bed : lower; };
-    auto small = scene_of(400, 240, filling, 0.06 * 4, 0.25);
-    auto scene = scene_of(100, 60, [&](auto, auto) { return lower; });
+    auto small = scene_of(400, 200, filling, 0.06 * 4, 0.25);
+    auto scene = scene_of(100, 50, [&](auto, auto) { return lower; });
     const auto below = [](double depth_m, const Rock& rock) {
       return Below{[=](double, double) { return depth_m; }, rock.vp, rock.vs, rock.rho};
     };
@@ -92,7 +92,7 @@ TEST(SameBed, OfOneOrTwoCellsGivesTheTracesOfSmallCells) {
     shoot_from(scene, {30.3, 6.2}, "explosion", {{50, 8}, {65.4, 10}, {75, 35.3}});
     small.recording = scene.recording;
     small.survey = scene.survey;
-    scene.numerics.zone_cells = 14, small.numerics.zone_cells = 56;
+    scene.numerics.zone_cells = 10, small.numerics.zone_cells = 40;
     EXPECT_LT(difference(traces_of(scene), traces_of(small)), 0.02) << "seed " << seed;
   }
 }
@@ -176,7 +176,7 @@ TEST(SameGround, InSpaceAsEdgeAndBelowVoidGivesTheSameTraces) {
       const Rock rock = draw.rock(10);
       std::vector<std::vector<double>> found;
       for (const std::int64_t voids : {0, 5}) {
-        Grid<3> grid{{26, 26, 26}, 1, {0, 0, 0}};
+        Grid<3> grid{{20, 20, 20}, 1, {0, 0, 0}};
         grid.shape[std::size_t(axis)] += voids;
         Medium<3> medium{Field<3>(grid), Field<3>(grid), Field<3>(grid)};
         for (std::int64_t n = 0; n < grid.size(); ++n) {
@@ -199,7 +199,7 @@ TEST(SameGround, InSpaceAsEdgeAndBelowVoidGivesTheSameTraces) {
         scene.survey.sources = {
             {place(10.3, 0.4), parse_mechanism<3>("force:0.4,-0.3,1"), parse_wavelet("ricker:100"), 1e6}};
         scene.survey.receivers_m = {place(14, 0), place(17.2, 0.3), place(18, 3)};
-        scene.recording = {{Component::vx, Component::vy, Component::vz}, 0.04, 0.0005};
+        scene.recording = {{Component::vx, Component::vy, Component::vz}, 0.03, 0.0005};
         scene.numerics.tiling = {2, 16};
         found.push_back(samples_of(shoot(scene, 1)));
       }

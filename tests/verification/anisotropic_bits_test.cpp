@@ -26,7 +26,7 @@ Index<D> shape_for(Cut cut, std::int64_t rows) {
     return long_form() ? Index<2>{150, 200} : cut == Cut::columns ? Index<2>{60, 44} : Index<2>{40, rows};
   if constexpr (D == 3)
     return long_form()           ? Index<3>{86, 24, 60}
-           : cut == Cut::columns ? Index<3>{44, 12, 18}
+           : cut == Cut::columns ? Index<3>{32, 10, 18}
                                  : Index<3>{18, 12, rows};
 }
 
@@ -184,10 +184,11 @@ Scene<3> fitted_in_3d(bool hills, Cut cut) {
   const Material rock = hills              ? turned_by(cracked, 30, 20, 15)
                         : cut == Cut::rows ? turned_by(shale, 30, 40)
                                            : shale;
-  const Index<3> shape = cut == Cut::rows ? long_form() ? Index<3>{24, 20, 110} : Index<3>{16, 10, 100}
+  const Index<3> shape = cut == Cut::rows ? long_form() ? Index<3>{24, 20, 110} : Index<3>{14, 8, 100}
                          : long_form() ? Index<3>{54, 14, 40}
-                                          : Index<3>{34, 8, 34};
+                                          : Index<3>{24, 8, 34};
   auto scene = fitted_sea_3d(shape);
+  if (!long_form()) scene.numerics.zone_cells = 4;
   scene.model.fracture = {}, scene.model.fracture_sets = {}, scene.with_slip = false;
   const auto floor = [](double x, double y) {
     return 63 + 0.1 * x - 0.15 * y + 4 * std::sin(x / 25 + y / 30);
@@ -213,14 +214,14 @@ Scene<D> plane_wave_past_a_body() {
   using Layers = std::vector<std::pair<Material, std::int64_t>>;
   auto shape = shape_for<D>(Cut::columns, 0);
   if constexpr (D == 3)
-    if (!long_form()) shape = {14, 14, 32};
+    if (!long_form()) shape = {10, 10, 24};
   const auto middle = shape[D - 1] / 2;
   const auto layers = D == 2 ? Layers{{sea, 8}, {shale, middle - 8}, {dipping_shale, middle / 2}, {hard, 0}}
                              : Layers{{askew, middle}, {shale, 0}};
   auto scene = plane_wave_in<D>(layers, shape, D == 2 ? "plane:155" : "plane:25,40",
                                 D == 2 ? double(shape[1]) * 5 + 20 : -30, 0);
   Point<D> at{};
-  at[0] = 31, at[D - 1] = 5 * double(middle) - 13;
+  at[0] = 21, at[D - 1] = 5 * double(middle) - 13;
   scene.survey.receivers_m = {at, {}};
   scene.survey.receivers_m[1][D - 1] = 5 * double(middle) + 22;
   for (std::int64_t n = 0; n < scene.model.grid().size(); ++n) {
@@ -230,7 +231,7 @@ Scene<D> plane_wave_past_a_body() {
   }
   scene.numerics.zone_cells = 6;
   // So short that traces still show where the series of some stages begin before those of others.
-  set_times(scene, D == 2 ? 0.1 : 0.04);
+  set_times(scene, D == 2 ? 0.1 : 0.03);
   return scene;
 }
 
@@ -239,6 +240,7 @@ struct Case {
   const char* name;
   std::function<AnyScene(Cut)> scene;
   bool of_ranks = true;
+  bool in_short = true;
 };
 void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
 
@@ -265,7 +267,7 @@ Scene<D> by(SlipCorrection correction, Scene<D> scene) {
 const auto two_families = families({{35, 20}, {90, 80}}, 0.2, 200);
 const auto tilted_shale = turned_by(shale, 25, 35), tilted_cracked = turned_by(cracked, 25, 35, 50);
 
-const Case cases[] = {
+const std::vector<Case> cases = {
     {"Level", [](Cut cut) { return slipping(blocks<2>(level_rocks, cut)); }},
     {"LevelInDouble", [](Cut cut) { return in_double(slipping(blocks<2>(level_rocks, cut))); }, false},
     {"Tilted", [](Cut cut) { return blocks<2>(tilted_rocks, cut); }},
@@ -284,7 +286,7 @@ const Case cases[] = {
     {"UprightInSpace", [](Cut cut) { return blocks<3>(upright_in_3d, cut); }, false},
     {"OrthorhombicInSpace", [](Cut cut) { return blocks<3>(orthorhombic_in_3d, cut); }},
     {"OrthorhombicInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(orthorhombic_in_3d, cut)); },
-     false},
+     false, false},
     {"TiltedInSpace", [](Cut cut) { return blocks<3>(tilted_in_3d, cut); }},
     {"TiltedInSpaceInDouble", [](Cut cut) { return in_double(blocks<3>(tilted_in_3d, cut)); }, false},
     {"AttenuatingInSpace", [](Cut cut) { return attenuating(blocks<3>(all_in_3d, cut)); }},
@@ -333,7 +335,10 @@ TEST_P(SharedAnisotropicScene, GivesTheBitsOfOneProcessOnSeveral) {
         const auto alone = samples_of(shoot(scene, 1));
         // Where every point moves in the last samples, ranks tell each other of it.
         ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-        for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
+        for (const int ranks : {2, 3}) {
+          if (ranks == 2 && !long_form()) continue;
+          EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
+        }
       },
       GetParam().scene(Cut::rows));
 }
@@ -375,7 +380,7 @@ TEST_P(ByElasticConstants, ASceneGivesTheTracesOfItsParameters) {
 }
 
 const auto name_of_case = [](const auto& info) { return std::string(info.param.name); };
-INSTANTIATE_TEST_SUITE_P(Of, AnisotropicScene, testing::ValuesIn(cases), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Of, AnisotropicScene, testing::ValuesIn(of_this_form(cases)), name_of_case);
 INSTANTIATE_TEST_SUITE_P(Of, SharedAnisotropicScene, testing::ValuesIn([] {
                            std::vector<Case> shared;
                            std::copy_if(std::begin(cases), std::end(cases), std::back_inserter(shared),
@@ -383,20 +388,20 @@ INSTANTIATE_TEST_SUITE_P(Of, SharedAnisotropicScene, testing::ValuesIn([] {
                            return shared;
                          }()),
                          name_of_case);
-INSTANTIATE_TEST_SUITE_P(Of, ByElasticConstants, testing::ValuesIn([] {
-                           const auto is_without = [](const Case& of, const char* word) {
-                             return std::string(of.name).find(word) == std::string::npos;
-                           };
-                           std::vector<Case> compared;
-                           std::copy_if(std::begin(cases), std::end(cases), std::back_inserter(compared),
-                                        [&](const Case& of) {
-                                          // Planes slip along the beds of level rock by other kernels.
-                                          return is_without(of, "Means") && is_without(of, "Attenuating") &&
-                                                 is_without(of, "Level");
-                                        });
-                           return compared;
-                         }()),
-                         name_of_case);
+INSTANTIATE_TEST_SUITE_P(
+    Of, ByElasticConstants, testing::ValuesIn([] {
+      const auto is_without = [](const Case& of, const char* word) {
+        return std::string(of.name).find(word) == std::string::npos;
+      };
+      std::vector<Case> compared;
+      std::copy_if(std::begin(cases), std::end(cases), std::back_inserter(compared), [&](const Case& of) {
+        // Planes slip along the beds of level rock by other kernels.
+        return is_without(of, "Means") && is_without(of, "Attenuating") && is_without(of, "Level") &&
+               (long_form() || (is_without(of, "SpaceInDouble") && is_without(of, "WaveInSpace")));
+      });
+      return compared;
+    }()),
+    name_of_case);
 
 }  // namespace
 }  // namespace slipwave::solver

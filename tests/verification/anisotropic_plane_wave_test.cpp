@@ -71,6 +71,7 @@ double error_in_plane(const Material& over, const Material& under, double angle_
                                 (shear ? "plane-s:" : "plane:") + std::to_string(angle_deg), -200,
                                 shear ? 0.45 : 0.32);
   scene.survey.sources[0].wavelet = parse_wavelet("ricker:20");
+  if (!long_form()) scene.numerics.zone_cells = 10;
   scene.survey.receivers_m = {{-87.5, 72.5}, {92.5, 107.5}, {-72.5, 222.5}, {112.5, 252.5}};
   const double x = std::sin(angle_deg * degree), z = std::cos(angle_deg * degree),
                c = phase_speeds<2>(elasticity_of<2>(over), over.rho, {x, z})[shear];
@@ -139,14 +140,14 @@ TEST(AnisotropicPlaneWave, GoesThroughARockUndisturbed) {
     for (const double angle : {0., 25., -40.})
       for (const bool shear : {false, true}) {
         if (!long_form() && (rock == steep || angle == (rock.tilt == 0 ? 0 : -40))) continue;
-        if (!long_form() && shear == (angle == 25)) continue;
+        if (!long_form() && (shear == (angle == 25) || (rock == sheared && shear))) continue;
         // 16 cells per S wave of the peak.
         EXPECT_LT(error_in_plane(rock, rock, angle, shear), shear ? 0.03 : 0.003)
             << rock.tilt << ' ' << angle << shear;
       }
   for (const auto& rock : {shale, askew, triclinic})
     for (const bool shear : {false, true}) {
-      if (!long_form() && shear != (rock == shale)) continue;
+      if (!long_form() && (shear != (rock == shale) || rock == askew)) continue;
       EXPECT_LT(error_in_3d(rock, 25, 40, shear), shear ? 0.05 : 0.01) << rock.tilt << shear;
     }
 }
@@ -176,7 +177,7 @@ void expect_same_in_wide_model(const std::vector<std::pair<Material, std::int64_
     shape.fill(widths[n]), shape[D - 1] = deep;
     auto scene = plane_wave_in<D>(layers, shape, kind, from_m, duration_s);
     if (D == 2) scene.survey.sources[0].wavelet = parse_wavelet("ricker:15"), scene.numerics.order = 5;
-    if (D == 3 && !long_form()) scene.numerics.zone_cells = 6;
+    if (!long_form()) scene.numerics.zone_cells = D == 2 ? 10 : 6;
     scene.survey.receivers_m = receivers;
     check(scene);
     samples[n] = samples_of(shoot(scene, 1));
@@ -199,7 +200,7 @@ TEST(AnisotropicPlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
       expect_same_in_wide_model<3>({{askew, 16}, {shale, 0}}, kind, 32, {12, 40}, -60, 0.2,
                                    {{-21, 14, 33}, {24, -13, 71}, {6, 22, 118}, {-12, -8, 142}}, 0.015);
     else
-      expect_same_in_wide_model<3>({{askew, 10}, {shale, 0}}, kind, 20, {6, 12}, -30, 0.11,
+      expect_same_in_wide_model<3>({{askew, 10}, {shale, 0}}, kind, 20, {6, 10}, -30, 0.11,
                                    {{-11, 10, 23}, {12, -9, 41}, {6, 12, 78}}, 0.015);
   }
 }

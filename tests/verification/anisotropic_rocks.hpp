@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <random>
 #include <string>
@@ -11,13 +10,11 @@
 #include <vector>
 
 #include "cube_shot.hpp"
+#include "long_form.hpp"
 #include "model/fracture.hpp"
 #include "rock/anisotropy.hpp"
 
 namespace slipwave::solver {
-
-/// Whether SLIPWAVE_LONG asks for the long form.
-inline bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
 /// Those scenes of a list that its form has: the short one leaves some out.
 template <class Case>

@@ -41,22 +41,22 @@ std::vector<Source> sources() {
                    bound, in_short});
   };
   for (const int kind : {0, 1, 2}) {
-    space("Shale", shale, kind, 0.007), space("Crossed", crossed, kind, 0.007);
+    space("Shale", shale, kind, 0.007, kind == 0), space("Crossed", crossed, kind, 0.007, kind == 1);
     space("DippingShale", dipping_shale, kind, 0.008, kind != 1), space("Steep", steep, kind, 0.008, false);
   }
   space("AnyRock", sheared, 0, 0.008), space("AnyRock", sheared, 2, 0.008, false);
-  space("Sandstone", sandstone, 1, 0.007), space("Elliptical", elliptical, 1, 0.007);
+  space("Sandstone", sandstone, 1, 0.007, false), space("Elliptical", elliptical, 1, 0.007);
   const auto add = [&](const char* name, const std::function<Stack()>& stack, double bound,
                        bool in_short = true) {
     all.push_back({name, stack, bound, in_short});
   };
   const auto hard_dipping = turned_by(hard, 15);
   add(
-      "ShaleOverHard", [] { return two_rocks(shale, hard); }, 0.008);
+      "ShaleOverHard", [] { return two_rocks(shale, hard); }, 0.008, false);
   add(
       "CrossedOverSandstone", [] { return two_rocks(crossed, sandstone); }, 0.008);
   add(
-      "EllipticalOverCrossed", [] { return two_rocks(elliptical, crossed); }, 0.008);
+      "EllipticalOverCrossed", [] { return two_rocks(elliptical, crossed); }, 0.008, false);
   add(
       "DippingOverHard", [=] { return two_rocks(dipping_shale, hard_dipping); }, 0.008);
   add(
@@ -67,15 +67,19 @@ std::vector<Source> sources() {
         return two_rocks({3100, 1650, 2350, 0.15, 0.05}, steep);
       },
       0.008, false);
-  for (const auto& [name, rock, in_short] : {std::tuple{"Shale", shale, true},
-                                             {"Crossed", crossed, true},
-                                             {"DippingShale", dipping_shale, true},
-                                             {"Steep", steep, false},
-                                             {"AnyRock", sheared, true}}) {
+  struct Ground {
+    const char* name;
+    Material rock;
+    bool dry_in_short, wet_in_short;
+  };
+  for (const auto& [name, rock, dry, wet] : {Ground{"Shale", shale, false, true},
+                                             {"Crossed", crossed, true, false},
+                                             {"DippingShale", dipping_shale, false, true},
+                                             {"Steep", steep, false, false},
+                                             {"AnyRock", sheared, true, false}}) {
     all.push_back(
-        {std::string(name) + "BelowASurface", [rock = rock] { return below_surface(rock); }, 0.01, in_short});
-    all.push_back(
-        {std::string(name) + "BelowWater", [rock = rock] { return below_water(rock); }, 0.01, in_short});
+        {std::string(name) + "BelowASurface", [rock = rock] { return below_surface(rock); }, 0.01, dry});
+    all.push_back({std::string(name) + "BelowWater", [rock = rock] { return below_water(rock); }, 0.01, wet});
   }
   // (Q10): of complex stiffnesses.
   const std::vector<Qualities> two = {{30, 20}, {100, 60}};
@@ -84,7 +88,7 @@ std::vector<Source> sources() {
       [] {
         return losing(full_space(dipping_shale), {{40, 20}});
       },
-      0.01);
+      0.01, false);
   add(
       "AttenuatingShale",
       [] {
@@ -115,7 +119,10 @@ INSTANTIATE_TEST_SUITE_P(Of, PointSource, testing::ValuesIn(of_this_form(sources
 
 // Proves (V4), (V7).
 TEST(PointSource, ConvergesAsInIsotropicRock) {
-  for (const auto& rock : {crossed, dipping_shale}) EXPECT_GT(order_below_surface(rock), 1.9) << rock.tilt;
+  for (const auto& rock : {crossed, dipping_shale})
+    if (long_form() || rock == dipping_shale) {
+      EXPECT_GT(order_below_surface(rock), 1.9) << rock.tilt;
+    }
 }
 
 /// Layers that dip about a point of the first interface, or of the surface, along which their rows go; places
@@ -371,7 +378,7 @@ struct ForceInSpace {
                  {Component::vx, Component::vy, Component::vz}, (near < 1 ? 2.8 : 3.2) / ricker_hz, 0.001);
     scene.numerics.order = 7;
     // In small models layers as wide as usual are most of the cells.
-    if (!long_form()) scene.numerics.zone_cells = 10;
+    if (!long_form()) scene.numerics.zone_cells = 8;
   }
   /// Error of all traces against velocities in a space, the source lying so deep.
   template <class Space>
@@ -396,21 +403,21 @@ struct ForceInSpace {
   }
 };
 double error_of_a_force(const Material& rock, int cells, int order = 7) {
-  ForceInSpace force(rock, cells, false);
+  ForceInSpace force(rock, cells, false, long_form() ? 1 : 0.6);
   force.scene.numerics.order = order;
   // Edges of the usual width send back 0.5 % of waves this long in crossed rock; they are not what is asked.
   if (cells > 20) force.scene.numerics.zone_cells = 40;
   return force.error(AnisotropicSpace(rock));
 }
 double error_with_loss(const Material& rock, const Qualities& of, int cells, std::size_t receivers) {
-  ForceInSpace force(rock, cells, false, 1, receivers);
+  ForceInSpace force(rock, cells, false, long_form() ? 1 : 0.6, receivers);
   attenuate(force.scene, of);
   const Mechanisms mechanisms(3, force.ricker_hz / 5, 2.5 * force.ricker_hz);
   return force.error(AttenuatingSpace(rock, of, mechanisms, force.ricker_hz));
 }
 /// Rows follow a horizon that dips and rolls.
 double error_in_curvilinear_rows(const Material& rock, int cells) {
-  ForceInSpace force(rock, cells, true, long_form() ? 1 : 0.7);
+  ForceInSpace force(rock, cells, true, long_form() ? 1 : 0.6);
   auto& medium = force.scene.model.medium;
   auto grid = medium.grid();
   // Fitted grids begin at a depth of 0.

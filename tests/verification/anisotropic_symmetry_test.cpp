@@ -33,6 +33,9 @@ Material in_level_plane(const Material& rock) {
   return {std::sqrt(c(1, 1) / rock.rho), std::sqrt(c(6, 6) / rock.rho), rock.rho};
 }
 
+/// The short form has less rock around the source.
+Index<2> slice_cells() { return long_form() ? Index<2>{90, 70} : Index<2>{64, 52}; }
+
 /// Both scenes with their times and receivers, which the short form has closer to the source and to narrower
 /// layers that absorb.
 Extruded recorded(Extruded both, double short_s, double long_s, const std::vector<Point<2>>& near,
@@ -55,9 +58,10 @@ Extruded level_slice(const std::array<int, 2>& axes, const Material& upper, cons
   const char* names[] = {"vx", "vy", "vz"};
   std::string force = "force:0,0,0";
   force[std::size_t(6 + 2 * axes[0])] = '1', force[std::size_t(6 + 2 * axes[1])] = '1';
-  auto both = extruded(axes, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing), "force:1,1",
-                       force.c_str(), {Component::vx, Component::vz},
-                       {component_named(names[axes[0]], 3), component_named(names[axes[1]], 3)});
+  auto both =
+      extruded(axes, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing), "force:1,1",
+               force.c_str(), {Component::vx, Component::vz},
+               {component_named(names[axes[0]], 3), component_named(names[axes[1]], 3)}, slice_cells());
   const auto rock_at = [=](std::int64_t row, const Material& over, const Material& under) {
     return !level && row < 12 ? sea : row > 38 ? under : over;
   };
@@ -89,7 +93,7 @@ Extruded curvilinear_slice(int along, bool hills, const EdgeLaws<2>& edges, int 
   const bool along_y = along == 1;
   const std::vector<Component> of_xz = {vx, vz, sxx, szz, sxz}, of_yz = {vy, vz, syy, szz, syz};
   auto both = extruded({along, 2}, edges, "force:1,2", along_y ? "force:0,1,2" : "force:1,0,2", of_xz,
-                       along_y ? of_yz : of_xz);
+                       along_y ? of_yz : of_xz, slice_cells());
   const auto layers = [&](bool swapped) {
     const auto on = [swapped](auto depth) {
       return [=](double x, double y) { return depth(swapped ? y : x); };
@@ -241,7 +245,7 @@ const std::vector<Slice> slices = {
        return lossy(curvilinear_slice(0, true, walls, 5, dipping_shale, stiff), {20, 13});
      },
      2e-5, no_loss, 0.1},
-    {"PlaneWave", [] { return in_plane_wave("plane:20"); }, 2e-4},
+    {"PlaneWave", [] { return in_plane_wave("plane:20"); }, 2e-4, {}, 0, false},
     {"PlaneSWave", [] { return in_plane_wave("plane-s:-25"); }, 2e-4},
 };
 
@@ -349,7 +353,7 @@ Scene<3> turned_plane_wave(const Turn& turn) {
   auto scene =
       plane_wave_in<3>({{turned_more(askew, turn), rows}, {turned_by(shale, 20, 70 + turn.degrees()), 0}},
                        {across, across, 2 * rows}, "plane:25," + std::to_string(40 + turn.degrees()),
-                       whole ? -60 : -30, whole ? 0.12 : 0.07);
+                       whole ? -60 : -30, whole ? 0.12 : 0.055);
   scene.survey.receivers_m = {turn.place({-7, 11, 5. * double(rows) - 9})};
   scene.numerics.cfl = 0.4;
   if (!whole) scene.numerics.zone_cells = 6;
@@ -533,6 +537,7 @@ Scene<D> blocks(const std::vector<Material>& rocks, const Index<D>& shape, const
   scene.survey.sources = {{{}, parse_mechanism<D>("explosion"), parse_wavelet(wavelet), 1e9}};
   scene.recording = {{}, duration_s, 0.001};
   scene.numerics.double_precision = D == 2;
+  if (!long_form()) scene.numerics.zone_cells = 10;
   return scene;
 }
 

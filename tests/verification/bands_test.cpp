@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "long_form.hpp"
 #include "memory_archive.hpp"
 #include "model/fracture.hpp"
 #include "parallel/threads.hpp"
@@ -60,7 +61,8 @@ Gather in_bands(Scene<2> scene, std::vector<Band> bands) {
 }
 
 TEST(Bands, OfSoftGroundOnRockGiveItsExactTraces) {
-  const auto stack = soft_ground();
+  auto stack = soft_ground();
+  if (!long_form()) stack.duration_s = 0.5;
   EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), 0.01);
 }
 
@@ -100,11 +102,13 @@ TEST(Bands, SendBackLessAtTheirEdgesThanCellsOfOneSize) {
 TEST(Bands, ReadAndMovePointsOnAndBesideAFaceOnce) {
   constexpr double bound = 0.1;
   for (const double at : {30., 29.4, 31.}) {
+    if (!long_form() && at == 31) continue;
     auto stack = soft_ground();
     stack.receivers = line_at(at, 200), stack.duration_s = 0.3;
     EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), bound) << at;
   }
   for (const double at : {29.4, 31.}) {
+    if (!long_form() && at < 30) continue;
     auto stack = soft_ground();
     stack.source_b = at, stack.duration_s = 0.3;
     EXPECT_LT(difference(in_bands(stack.scene(), {{0, 0.6}, {30, 2.4}}), stack.exact().front()), bound) << at;
@@ -115,8 +119,10 @@ TEST(Bands, ReadAndMovePointsOnAndBesideAFaceOnce) {
 // waves.
 TEST(Bands, DifferLittleFromCellsOfOneSizeAtTheSameTimeStep) {
   for (const int time_order : {2, 4}) {
+    // In the short form the tests of attenuation and of planes are of second order in time.
+    if (!long_form() && time_order == 2) continue;
     auto stack = soft_ground();
-    stack.time_order = time_order, stack.duration_s = 0.3, stack.spacing_m = 1;
+    stack.time_order = time_order, stack.duration_s = long_form() ? 0.3 : 0.2, stack.spacing_m = 1;
     auto scene = stack.scene();
     const auto whole = shoot(scene, 1);
     scene.numerics.cfl /= 4;
@@ -171,6 +177,7 @@ TEST(Bands, ReflectNextToNothingInOneRock) {
   stack.peak_hz = 20, stack.spacing_m = 2, stack.order = 7, stack.duration_s = 0.6, stack.margin_m = 200;
   for (double a = 60; a <= 600; a += 60) stack.receivers.push_back({a, -40});
   for (const auto& force : {std::optional<Point<2>>(), std::optional<Point<2>>({0.6, 0.8})}) {
+    if (!long_form() && !force) continue;
     stack.force = force;
     const auto scene = stack.scene();
     const double face_m = 4 * std::round((stack.place({0, 0})[1] + 88) / 4);
@@ -193,7 +200,7 @@ Scene<3> box_in_space() {
   scene.survey.sources = {{{45, 48, 33}, PointForce<3>{{1, 0.5, 0.7}}, parse_wavelet("ricker:15"), 1e6}};
   scene.survey.receivers_m = {{30, 30, 27}, {60, 39, 45}, {63, 66, 69}, {21, 72, 84}, {63, 48, 130}};
   scene.recording = {{Component::vx, Component::vy, Component::vz}, 0.2, 0.001};
-  scene.numerics.order = 7, scene.numerics.cfl = 0.8;
+  scene.numerics.order = 7, scene.numerics.cfl = 0.8, scene.numerics.zone_cells = 8;
   return scene;
 }
 
@@ -201,6 +208,7 @@ TEST(Bands, InSpaceAreAsCellsOfOneSize) {
   const auto scene = box_in_space();
   const auto whole = shoot(scene, 1);
   for (const int ratio : {2, 3}) {
+    if (!long_form() && ratio == 2) continue;
     auto banded = scene;
     banded.numerics.cfl /= ratio;
     banded.numerics.bands = {{0, 3}, {72, 3. * ratio}};

@@ -55,7 +55,7 @@ Scene<2> with_clusters(Scene<2> scene) {
 
 /// Water over two rocks below a free surface, fractures. In lines wider than a usual stripe there is a wider
 /// cluster, too, and a narrow one beside it.
-Scene<2> sea(std::int64_t nx = long_form() ? 330 : 200) {
+Scene<2> sea(std::int64_t nx = long_form() ? 330 : 150) {
   auto scene = fitted_sea(200, 90);
   scene.model.medium = uniform_medium(nx, 90, 5, rock);
   fill(scene.model.medium, [](const Index<2>& at) {
@@ -81,7 +81,7 @@ Scene<2> in_one_rock() {
 enum class Ground { level, sea, hills };
 
 Scene<2> over(Ground ground) {
-  const std::int64_t nx = long_form() ? 220 : 200;
+  const std::int64_t nx = long_form() ? 220 : 150;
   if (ground == Ground::level) return sea();
   return with_clusters(ground == Ground::sea ? fitted_sea(nx, 90) : fitted_hills(nx, 90));
 }

@@ -30,8 +30,8 @@ struct Extruded {
 /// `axes`: those of 3-D that x and z of 2-D become.
 inline Extruded extruded(const std::array<int, 2>& axes, const EdgeLaws<2>& edges, const char* mechanism,
                          const char* mechanism_3d, const std::vector<Component>& components,
-                         const std::vector<Component>& components_3d) {
-  constexpr std::int64_t nx = 90, nz = 70;
+                         const std::vector<Component>& components_3d, const Index<2>& size = {64, 52}) {
+  const auto [nx, nz] = size;
   constexpr double h = 5;
   Extruded both{{}, {}, axes};
   both.flat.model.medium = uniform_medium(nx, nz, h, rock);
@@ -54,7 +54,7 @@ inline Extruded extruded(const std::array<int, 2>& axes, const EdgeLaws<2>& edge
   for (int n = 0; n < 2; ++n) deep_edges[axes[std::size_t(n)]] = edges[n];
   const Point<2> source = {221, 131};
   both.flat.survey.sources = {{source, parse_mechanism<2>(mechanism), parse_wavelet("ricker:25"), 1e9}};
-  both.flat.survey.receivers_m = {{101, 33}, {302.5, 201.3}, {420, 60}, {201, 313}};
+  both.flat.survey.receivers_m = {{101, 33}, {302.5, 201.3}, {280, 60}, {201, 243}};
   both.flat.recording = {components, 0.2, 0.001};
   both.flat.numerics.double_precision = true;
   both.deep =
@@ -74,7 +74,7 @@ inline void fracture(Extruded& both, const Point<2>& normal, double friction, do
   flat.fracture = Field<2, std::uint8_t>(flat.grid());
   deep.fracture = Field<3, std::uint8_t>(deep.grid());
   for (std::int64_t k = 26; k < 37; ++k)
-    for (std::int64_t i = 22; i < 71; ++i)
+    for (std::int64_t i = 22; i < 53; ++i)
       if (i % 9 != 0) flat.fracture({i, k}) = deep.fracture(both.deep_cell(i, k)) = 1;
   Point<3> normal_in_3d{};
   for (std::size_t n = 0; n < 2; ++n) normal_in_3d[std::size_t(both.axes[n])] = normal[n];

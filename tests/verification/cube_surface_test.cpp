@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cube_shot.hpp"
+#include "long_form.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -114,12 +115,14 @@ TEST(CubeAbsorbingEdges, SendBackLittleOfAnExplosionAndAForce) {
   // Against the same shot in a grid so large that nothing is back in time.
   const Rock rock{4500, 2600, 2500};
   const double h = 10;
-  for (const char* mechanism : {"explosion", "force:1,2,3"}) {
+  for (const std::string mechanism : {"explosion", "force:1,2,3"}) {
+    // A force sends waves of both kinds.
+    if (!long_form() && mechanism == "explosion") continue;
     const auto traces = [&](std::int64_t more, EdgeLaw law) {
       const Grid<3> grid{{24 + 2 * more, 22 + 2 * more, 26 + 2 * more}, h, {}};
       const double low = -double(more) * h;
       auto scene = scene_of(uniform_cube(grid.shape, h, rock, {low, low, low}), edges_all_3d(law),
-                            {121, 113, 135}, mechanism, "ricker:25", {{63, 171, 59}, {225, 32, 241}},
+                            {121, 113, 135}, mechanism.c_str(), "ricker:25", {{63, 171, 59}, {225, 32, 241}},
                             {Component::vx, Component::vy, Component::vz}, 0.15, interval_s);
       scene.numerics.zone_cells = 12;
       check(scene);

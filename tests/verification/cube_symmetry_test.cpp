@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cube_shot.hpp"
+#include "long_form.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -61,6 +62,8 @@ TEST(CubeEnergy, NeverRisesBetweenRigidWallsOrMirrors) {
   for (const auto law : {EdgeLaw::rigid, EdgeLaw::mirror})
     for (const int order : orders)
       for (const int time_order : {2, 4}) {
+        // In the short form each order in space and time between edges of one kind.
+        if (!long_form() && (law == EdgeLaw::mirror) == (order % 4 + time_order == 5)) continue;
         Cube<double> cube(medium, edges_all_3d(law), order, 0.99 * 5 / 5500, time_order);
         cube.shake(8);
         double least = cube.energy();
@@ -95,7 +98,7 @@ TEST(CubeEnergy, BetweenFreeEdgesFallsInTheLongRun) {
 
 TEST(CubeReciprocity, OfForcesHoldsThroughWaterAndRock) {
   // G_ij(A, B) = G_ji(B, A); S waves of the wavelet's peak hold 16 cells, of its highest frequency 6.
-  const Index<3> shape = {44, 40, 42};
+  const Index<3> shape = {36, 32, 42};
   auto medium = uniform_cube(shape, 5, {4500, 2600, 2500});
   for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
     const auto at = medium.grid().index(n);
@@ -104,7 +107,7 @@ TEST(CubeReciprocity, OfForcesHoldsThroughWaterAndRock) {
   }
   auto edges = edges_all_3d(EdgeLaw::mirror);
   edges[2][0] = EdgeLaw::free;
-  const Point<3> a = {63, 71, 92}, b = {151, 128, 163};
+  const Point<3> a = {38, 46, 92}, b = {126, 103, 163};
   const char* const forces[] = {"force:1,0,0", "force:0,1,0", "force:0,0,1"};
   const auto traces = [&](const Point<3>& from, const Point<3>& to, int axis) {
     auto scene = scene_of(medium, edges, from, forces[axis], "ricker:25", {to},

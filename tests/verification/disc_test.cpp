@@ -48,6 +48,7 @@ struct DiscScene {
   Point<3> source = {20, 0, -90};
   int wavelengths = 5;
   double duration_s = 0.18;
+  bool absorbing = false;  // the edges, so that few wavelengths do
 
   double images() const { return level ? 4 : 2; }
   Scene<3> scene(bool with_disc) const {
@@ -55,7 +56,7 @@ struct DiscScene {
     const auto n = std::int64_t(wavelengths * cells);
     const Index<3> shape = {level ? n : 2 * n, n, 2 * n};
     const Point<3> origin = {level ? 0 : -double(n) * h, 0, -double(n) * h};
-    auto edges = edges_all_3d(EdgeLaw::free);
+    auto edges = edges_all_3d(absorbing ? EdgeLaw::absorbing : EdgeLaw::free);
     edges[1][0] = EdgeLaw::mirror;
     if (level) edges[0][0] = EdgeLaw::mirror;
     auto scene = scene_of(uniform_cube(shape, h, rock, origin), edges, source, "explosion", "ricker:30",
@@ -65,6 +66,7 @@ struct DiscScene {
       add_beyond(scene.model, disc_of(disc.centre_m, disc.radius_m, disc.normal), disc.normal_m_per_pa,
                  disc.tangential_m_per_pa);
     scene.numerics.order = 7;
+    scene.numerics.zone_cells = 10;
     scene.numerics.double_precision = true;
     return scene;
   }
@@ -125,8 +127,8 @@ TEST(DiscRadiation, IsThatOfTheClosedFormsItIsMadeOf) {
 // Proves (S30).
 TEST(Disc, ScattersAsTheMomentOfItsJumpRadiates) {
   // Little compliance, in shear and in tension: waves that the disc sends to itself are a tenth of a percent.
-  // S waves have passed the receivers 75 m away after 0.14 s; P waves by way of edges 300 m away come later.
-  EXPECT_LT((DiscScene{dipping(30, 2e-12, 1e-12), false, 12, {20, 0, -90}, 4, 0.14}.error()), 0.05);
+  // S waves have passed the receivers 75 m away after 0.14 s.
+  EXPECT_LT((DiscScene{dipping(30, 2e-12, 1e-12), false, 12, {20, 0, -90}, 2, 0.14, true}.error()), 0.05);
 }
 
 TEST(Disc, ThatIsLevelScattersAsTheMomentOfItsJumpRadiatesLong) {
@@ -259,7 +261,7 @@ TEST(Discs, AlongYGiveTheTracesOfLinesIn2D) {
                        {Component::vx, Component::vz, Component::sxz});
   SlipSystem<2> line{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
   line.compliance = {2e-10, 5e-10, 0, 0, 0};
-  const FractureTrace<2> trace = {{150.7, 120.2}, {331.3, 181.6}};
+  const FractureTrace<2> trace = {{120.7, 120.2}, {271.3, 181.6}};
   auto intact = both.flat;
   add_single_fractures(both.flat.model, {"line", {line}, {trace}});
   // As wide as makes all points count to the one cell by whole shares.

@@ -35,17 +35,17 @@ const std::vector<AnisotropicStack::Receiver> receivers = {
 
 Scene<2> scene_with(double h) {
   Scene<2> scene;
-  const Grid<2> grid{{std::llround(1100 / h), std::llround(1100 / h)}, h, {0, 0}};
+  const Grid<2> grid{{std::llround(900 / h), std::llround(900 / h)}, h, {0, 0}};
   scene.model.medium = Medium<2>(grid);
   for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell) put(scene.model.medium, cell, rock);
-  const double middle = 550;
+  const double middle = 450;
   scene.survey.sources = {
       {{middle, middle}, parse_mechanism<2>("force:0.6,0.8"), parse_wavelet("ricker:20"), 1e6}};
   for (const auto& at : receivers) scene.survey.receivers_m.push_back({middle + at.x, middle + at.z});
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.numerics.order = 7;
   // Until waves come back from the edges, beyond which rock has no planes.
-  scene.recording = {{Component::vx, Component::vz}, 0.27, 0.001};
+  scene.recording = {{Component::vx, Component::vz}, 0.24, 0.001};
   return scene;
 }
 const auto everywhere = [](const Point<2>&) { return true; };
@@ -109,6 +109,7 @@ TEST(EffectiveMedium, HasTheTracesOfItsClosedFormAndSoHaveSprings) {
   for (const auto& all : {std::vector{level}, std::vector{upright}, std::vector{level, upright}}) {
     SCOPED_TRACE(all.size() == 2 ? "both" : all[0].normal[0] == 0 ? "level" : "upright");
     EXPECT_LT(error_of_medium(5, all), 0.01);
+    if (all.size() < 2 && !std::getenv("SLIPWAVE_LONG")) continue;
     EXPECT_LT(error_of_springs(2.5, all), 0.025);
   }
 }

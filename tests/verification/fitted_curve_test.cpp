@@ -18,7 +18,7 @@ struct Shot {
 };
 
 Scene<2> curved_floor(double cells, const Shot& shot, bool sea = true) {
-  const double wide_m = 1200, deep_m = 800;
+  const double wide_m = 1200, deep_m = 650;
   const auto nx = std::int64_t(std::ceil(wide_m * peak_hz * cells / (sea ? 1500 : rock.vs)));
   const double h = wide_m / double(nx);
   const auto floor = [](double x, double) {
@@ -32,7 +32,7 @@ Scene<2> curved_floor(double cells, const Shot& shot, bool sea = true) {
   scene.survey.receivers_m = shot.receivers;
   scene.edges = edges_all(EdgeLaw::absorbing);
   if (!sea) scene.edges[1][0] = EdgeLaw::free;
-  scene.recording = {{Component::vx, Component::vz}, 0.6, 0.001};
+  scene.recording = {{Component::vx, Component::vz}, 0.5, 0.001};
   check(scene);
   return scene;
 }

@@ -242,7 +242,7 @@ struct Case {
 
 // Proves (S25).
 TEST(SpringRow, ReflectsAndTransmitsAsSchoenbergsInterface) {
-  std::vector<Case> cases = {{false, 30, 40}, {true, 30, 20}, {true, 60, 40}};
+  std::vector<Case> cases = {{false, 30, 40}, {true, 60, 40}};
   if (std::getenv("SLIPWAVE_LONG")) {
     cases.clear();
     for (const bool of_s : {false, true})

@@ -245,10 +245,11 @@ TEST(Instability, OfOneComponentAloneIsSeen) {
   expect_each_component_seen<3>(uniform_cube({20, 6, 5}, h, rock));
 }
 
-/// The largest velocity of any cell at any time, of a shot in snapshots of every step.
+/// The largest velocity of any cell, of a shot in snapshots of every fifth step: waves change little in the
+/// meantime.
 double fastest_in(Scene<2> scene) {
   double fastest = 0;
-  scene.snapshot_every_s = time_step_s(scene);
+  scene.snapshot_every_s = 5 * time_step_s(scene);
   shoot<2>(scene, 1, {}, [&](double, const FieldReader<2>& field) {
     for (const auto component : {Component::vx, Component::vz})
       for (const float value : field(component)) fastest = std::max(fastest, double(std::abs(value)));
@@ -276,7 +277,7 @@ TEST(Instability, TheLargestVelocityIsAboveThoseOfWavesAndNotFarAbove) {
   plane.model.fracture = {};
   plane.survey.sources[0] = {{0, 0}, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:20"), 3};
   plane.edges[1][0] = EdgeLaw::absorbing;
-  plane.recording.duration_s = 0.2;
+  plane.recording.duration_s = 0.2, plane.numerics.zone_cells = 12;
   EXPECT_GT(largest_velocity(plane, 1), 100 * fastest_in(plane));
   EXPECT_LT(largest_velocity(plane, 1), 1e6 * fastest_in(plane));
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "lab.hpp"
+#include "long_form.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -125,13 +126,19 @@ void expect_exact(const Interface& interface, int order, bool resolved = true) {
 
 // Proves (E8), (E10).
 TEST(Interface, ReflectsAndTransmitsWithTheExactCoefficients) {
-  for (const auto& interface : interfaces)
-    for (const int order : {3, 5, 7}) expect_exact(interface, order);
+  // In the short form each has one of the orders in turn.
+  int turn = 0;
+  for (const auto& interface : interfaces) {
+    ++turn;
+    for (const int order : {3, 5, 7})
+      if (long_form() || order == 3 + 2 * (turn % 3)) expect_exact(interface, order);
+  }
 }
 
 // Proves (E8).
 TEST(Interface, OfAirAndSteelIsExactToo) {
   for (const int order : {3, 7}) {
+    if (!long_form() && order == 3) continue;
     expect_exact({"air on steel", air, steel}, order);
     // The wave in air is 17 times shorter than that in steel: less than a cell.
     expect_exact({"steel on air", steel, air}, order, false);

@@ -8,6 +8,7 @@
 
 #include "accuracy/dispersion.hpp"
 #include "lab.hpp"
+#include "long_form.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -148,6 +149,8 @@ TEST(StepError, IsWhatTheSchemeDoesToAWaveAcrossTheAxes) {
         Mode{wave_s, 2 * pi / 1000, 7 * pi / 1000}})
     for (const int order : {3, 5, 7})
       for (const int time_order : {2, 4}) {
+        // The longer the wave the more steps.
+        if (!long_form() && mode.kx < 3 * pi / 1000) continue;
         const double courant = time_order == 2 ? 0.9 : 1.8, dt = courant * h / rock.vp;
         L lab(uniform_medium(50, 50, h, rock), edges_all(EdgeLaw::mirror), order, dt, time_order);
         for (const auto row : {L::vx, L::vz, L::sxx, L::szz, L::sxz})

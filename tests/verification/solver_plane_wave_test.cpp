@@ -6,6 +6,7 @@
 
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
+#include "long_form.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -25,6 +26,7 @@ Scene<2> plane_scene(const Medium<2>& medium, double angle_deg, const Point<2>& 
                            parse_wavelet("ricker:30"), 0.002}};
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.recording = {all_components, duration_s, 0.001};
+  scene.numerics.zone_cells = 12;
   return scene;
 }
 
@@ -33,6 +35,7 @@ TEST(PlaneWave, PassesReceiversWithTheStressAndAtTheTimeOfTheClosedForm) {
   const double h = 5, side = 800;
   const auto n = std::int64_t(side / h);
   for (const double angle : {0., 20., 45., 160., -70.}) {
+    if (!long_form() && (angle == 0 || angle == 45)) continue;
     const double sine = std::sin(angle * pi / 180), cosine = std::cos(angle * pi / 180);
     const Point<2> reference = {side / 2 - 700 * sine, side / 2 - 700 * cosine};
     auto scene = plane_scene(uniform_medium(n, n, h, rock), angle, reference, 0.35);
@@ -68,6 +71,7 @@ TEST(PlaneSWave, PassesReceiversWithTheStressAndAtTheTimeOfTheClosedForm) {
   const Rock slow{3600, 2000, 2300};
   const auto n = std::int64_t(side / h);
   for (const double angle : {0., 30., 160., -70.}) {
+    if (!long_form() && (angle == 0 || angle == 160)) continue;
     const double sine = std::sin(angle * pi / 180), cosine = std::cos(angle * pi / 180);
     const Point<2> reference = {side / 2 - 450 * sine, side / 2 - 450 * cosine};
     auto scene = plane_scene(uniform_medium(n, n, h, slow), angle, reference, 0.5, "plane-s");
@@ -153,6 +157,7 @@ TEST(PlaneWave, CrossesLayersAsTheSumOfAllItsReflections) {
   const double h = 2.5, duration = 0.6;
   const auto medium = layered_medium(280, h, layers);
   for (const auto sides : {EdgeLaw::mirror, EdgeLaw::absorbing}) {
+    if (!long_form() && sides == EdgeLaw::mirror) continue;
     auto scene = plane_scene(medium, 0, {0, 0}, duration);
     scene.edges[0] = {sides, sides};
     scene.survey.receivers_m = {{31, 21.3}, {31, 352.2}, {31, 433.1}, {31, 600.9}};
@@ -201,6 +206,7 @@ TEST(PlaneWave, IsTheSameWithAbsorbingSidesAsWithMirrorsHoweverShallowTheModel) 
   for (const auto bottom : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {
     auto scene = plane_scene(uniform_medium(20, 12, 5, rock), 0, {0, -160}, 0.2);
     scene.edges[1][1] = bottom;
+    scene.numerics.zone_cells = 0;
     scene.survey.receivers_m = {{3, 31.2}, {52, 8.3}};
     check(scene);
     const auto in_zones = shoot(scene, 1);

@@ -3,6 +3,7 @@
 
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
+#include "long_form.hpp"
 #include "solver/simulation.hpp"
 #include "solver/sweep/extension_errors.hpp"
 #include "solver/sweep/point_weights.hpp"
@@ -56,6 +57,8 @@ TEST(SourceAndReceivers, MovedTogetherByPartsOfACellRecordTheSame) {
   for (const char* mechanism : {"explosion", "force:0,1", "moment:1,-1,0.5"}) {
     const auto on_centre = around_source(mechanism, 0, 0);
     for (const auto& [x, z] : {std::pair(0.5, 0.5), std::pair(0.25, 0.), std::pair(-0.4, 0.3)}) {
+      // In the short form each mechanism is moved by one of them.
+      if (!long_form() && x != (mechanism[0] == 'e' ? 0.5 : mechanism[0] == 'f' ? 0.25 : -0.4)) continue;
       const auto moved = around_source(mechanism, x, z);
       for (const std::size_t component : {0, 1, 2})
         EXPECT_LT(relative_error(samples_of(moved, component), samples_of(on_centre, component)), 0.002)
@@ -237,6 +240,7 @@ double not_told(const Rock& above, double courant, const std::array<double, 2>& 
 // Proves (A24).
 TEST(ExtensionErrors, AreThoseThatStepsLeaveBesideAnInterface) {
   for (const double courant : {0.9, 0.3}) {
+    if (!long_form() && courant == 0.3) continue;
     EXPECT_LT(not_told({1500, 800, 1000}, courant, {1, 1}), 0.02) << courant;
     for (const auto& along : {std::array{1., 0.}, std::array{0., 1.}})
       EXPECT_LT(not_told({1500, 0, 1000}, courant, along), 0.02) << courant << ", " << along[0];
@@ -292,6 +296,7 @@ template <int D>
 void expect_half_records_what_the_whole_does() {
   for (const int axis : {0, D - 1})
     for (const double source_x_m : {2.5, 9., 60.}) {
+      if (!long_form() && (source_x_m == 9) != (axis == 0)) continue;
       const auto whole = at_a_plane_of_symmetry<D>(true, axis, source_x_m),
                  half = at_a_plane_of_symmetry<D>(false, axis, source_x_m);
       double largest = 0, difference = 0;

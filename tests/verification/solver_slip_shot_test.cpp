@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "long_form.hpp"
 #include "slip_layer.hpp"
 #include "solver/simulation.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 Waves shot(const Setup& setup, double h, const std::vector<double>& times_s) {
   constexpr double top_m = 600, source_m = 440, away_m = 60;
   Scene<2> scene;
-  scene.model.medium = uniform_medium(8, std::int64_t(900 / h), h, rock);
+  scene.model.medium = uniform_medium(4, std::int64_t(900 / h), h, rock);
   scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
   for (std::int64_t n = 0; n < scene.model.grid().size(); ++n) {
     const double z = scene.model.grid().centre(1, scene.model.grid().index(n)[1]);
@@ -20,11 +21,11 @@ Waves shot(const Setup& setup, double h, const std::vector<double>& times_s) {
   }
   scene.model.fracture_sets = {
       {"bed", {{{std::sqrt(0.5), std::sqrt(0.5)}, 0, viscosity_s(setup.thickness_m, setup.r), strength_pa}}}};
-  scene.survey.sources = {{{4 * h, source_m},
+  scene.survey.sources = {{{2 * h, source_m},
                            parse_mechanism<2>("plane:0"),
                            parse_wavelet("ricker:30"),
                            peak_pa / (mu * rock.rho * rock.vp / modulus_p)}};
-  scene.survey.receivers_m = {{4 * h, top_m - away_m}, {4 * h, top_m + setup.thickness_m + away_m}};
+  scene.survey.receivers_m = {{2 * h, top_m - away_m}, {2 * h, top_m + setup.thickness_m + away_m}};
   scene.edges[0] = {EdgeLaw::mirror, EdgeLaw::mirror};
   scene.edges[1] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
   // The wavelet peaks 1.5 periods after it starts.
@@ -62,6 +63,8 @@ TEST(SlipLayer, PassesAndReflectsPWavesAsInOneDimension) {
                         {second, 1, {{0.19, 1.2}, {0.080, 0.29}, {0.032, 0.073}}, 1.8},
                         {second, 10, {{0.97, 2.3}, {0.32, 0.62}, {0.105, 0.15}}, 1.8}};
   for (const auto& bounds : all) {
+    // In the short form one is of the first order.
+    if (!long_form() && (bounds.r == 1) != (bounds.correction == first)) continue;
     Errors found[3];
     const auto exact = Layer(pressure, 40 / rock.vp, relaxation_s(40, bounds.r), 400).at(times_s);
     for (const int n : {0, 1, 2}) {
