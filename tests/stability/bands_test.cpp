@@ -141,13 +141,14 @@ void expect_falling_energy(const BandedGround& ground, int ratio, int order, dou
 class Bands : public testing::TestWithParam<BandedGround> {};
 
 TEST_P(Bands, NeverAddEnergyAtTheirFaces) {
-  std::size_t n = 0;
+  // For each ground the short form has other Courant numbers, and of several ratios every other order.
+  std::size_t turn = GetParam().name.size();
   for (int ratio = 2; ratio <= GetParam().widest; ++ratio)
     for (const int order : orders_tried())
-      for (const double cfl : {0.5, 0.9, 1.}) {
+      for (const double cfl : share_of(std::vector{0.5, 0.9, 1.}, turn++ % 4)) {
         // 96 rows leave fewer than order 11 needs below a face to cells four times as large.
         if (order > 7 && ratio > 3) continue;
-        if (!long_form() && n++ % 3 != 0) continue;
+        if (!long_form() && GetParam().widest > 2 && (ratio + order / 2) % 2 != 0) continue;
         expect_falling_energy<double>(GetParam(), ratio, order, cfl);
         if (testing::Test::HasFatalFailure()) return;
       }

@@ -141,7 +141,8 @@ TEST(Boxes, WithVoidInACornerLoseEnergyAtHighOrders) {
   of.neighbour = Neighbour::void_in_a_corner;
   of.edges[0] = {EdgeLaw::absorbing, EdgeLaw::mirror};
   of.edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
-  for (const int order : {7, 9, 11}) of.order = order, expect_no_growth(of, long_form() ? 20000 : 3000);
+  for (const int order : long_form() ? std::vector{7, 9, 11} : std::vector{7, 11})
+    of.order = order, expect_no_growth(of, long_form() ? 20000 : 3000);
 }
 
 // Proves (E11a).

@@ -87,7 +87,7 @@ std::vector<Kind> kinds(const Index<3>& shape) {
 class FittedAnisotropyInSpace : public ::testing::TestWithParam<int> {
  protected:
   Medium<3> medium(unsigned seed, int block, bool tilts) const {
-    const Grid<3> grid{{12, 10, 34}, h, {0, 0, 0}};
+    const Grid<3> grid{long_form() ? Index<3>{12, 10, 34} : Index<3>{10, 8, 26}, h, {0, 0, 0}};
     const auto kind = kinds(grid.shape)[std::size_t(GetParam())];
     auto made = fitted_medium<3>(grid, kind.layers, kind.surface);
     make_anisotropic(made, seed, block, tilts);

@@ -76,19 +76,19 @@ const std::vector<std::string>& fitted_names() {
 class FittedEnergy : public ::testing::TestWithParam<std::string> {
  protected:
   Medium<2> medium() const { return fitted_named(GetParam(), 20, 44); }
+  std::size_t turn() const { return turn_of(GetParam(), fitted_names()); }
   const ThreadLimit one_thread_{1};
   static constexpr int steps_ = 600, long_run_ = 20000;
 };
 
 // Proves (E11a), (F1).
 TEST_P(FittedEnergy, NeverRisesInDouble) {
-  for (const int order : orders)
-    for (const auto edge : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {
-      if (!long_form() && (order == 1 ? edge != EdgeLaw::free : order == 3 && edge != EdgeLaw::rigid))
-        continue;
-      const auto edges = edges_below(edge == EdgeLaw::absorbing ? EdgeLaw::free : edge, edge);
-      expect_no_growth<double>(medium(), edges, {order}, steps_, long_run_);
-    }
+  for (const auto& [order, edge] :
+       share_of_pairs<int, EdgeLaw>({std::begin(orders), std::end(orders)},
+                                    {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}, turn())) {
+    const auto edges = edges_below(edge == EdgeLaw::absorbing ? EdgeLaw::free : edge, edge);
+    expect_no_growth<double>(medium(), edges, {order}, steps_, long_run_);
+  }
 }
 
 // Proves (F1).
@@ -134,11 +134,12 @@ class FittedPml : public ::testing::TestWithParam<std::string> {};
 TEST_P(FittedPml, StaysBoundedForThousandsOfSteps) {
   const ThreadLimit one_thread(1);
   const auto medium = fitted_named(GetParam(), 14, 36);
-  for (const auto& [order, top, zone_cells] : {std::tuple(3, EdgeLaw::absorbing, 8),
-                                               {5, EdgeLaw::free, 8},
-                                               {5, EdgeLaw::absorbing, 20},
-                                               {7, EdgeLaw::rigid, 8},
-                                               {7, EdgeLaw::free, 20}}) {
+  const std::vector<std::tuple<int, EdgeLaw, int>> runs = {{3, EdgeLaw::absorbing, 8},
+                                                           {5, EdgeLaw::free, 8},
+                                                           {5, EdgeLaw::absorbing, 20},
+                                                           {7, EdgeLaw::rigid, 8},
+                                                           {7, EdgeLaw::free, 20}};
+  for (const auto& [order, top, zone_cells] : share_of(runs, turn_of(GetParam(), fitted_names()))) {
     Numbers numbers{order};
     numbers.zone_cells = zone_cells;
     numbers.pml_hz = 30;

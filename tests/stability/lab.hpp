@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -34,20 +35,30 @@ bool long_form();
 template <class Case>
 std::vector<Case> share_of(const std::vector<Case>& cases, std::size_t first = 0) {
   std::vector<Case> taken;
-  for (std::size_t n = long_form() ? 0 : first; n < cases.size(); n += long_form() ? 1 : 3)
+  const std::size_t begin = first % std::min<std::size_t>(3, cases.size());
+  for (std::size_t n = long_form() ? 0 : begin; n < cases.size(); n += long_form() ? 1 : 3)
     taken.push_back(cases[n]);
   return taken;
 }
 
-/// All pairs of two lists; in the short form a third of them, in which each of either list stands.
+/// All pairs of two lists; in the short form each of the first with one of the second, which are taken in
+/// turn and begin at another one for each `turn`.
 template <class First, class Second>
 std::vector<std::tuple<First, Second>> share_of_pairs(const std::vector<First>& firsts,
-                                                      const std::vector<Second>& seconds) {
+                                                      const std::vector<Second>& seconds,
+                                                      std::size_t turn = 0) {
   std::vector<std::tuple<First, Second>> taken;
   for (std::size_t n = 0; n < firsts.size(); ++n)
     for (std::size_t m = 0; m < seconds.size(); ++m)
-      if (long_form() || (n + m) % 3 == 0) taken.emplace_back(firsts[n], seconds[m]);
+      if (long_form() || (n + m + turn) % seconds.size() == 0) taken.emplace_back(firsts[n], seconds[m]);
   return taken;
+}
+
+/// The number of a case in the third of a list that it stands in (share_of()): by it the short form chooses
+/// which of several numbers the case is run with, so that all cases together have all of them.
+template <class Case>
+std::size_t turn_of(const Case& one, const std::vector<Case>& cases) {
+  return std::size_t(std::find(cases.begin(), cases.end(), one) - cases.begin()) / 3;
 }
 
 /// All orders, or in the short form one low, the usual one and the highest.

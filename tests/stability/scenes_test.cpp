@@ -337,7 +337,7 @@ TEST(RandomScenes, StopGrowingWithTheirSource) {
   const ThreadLimit one_thread(1);
   const char* alone = std::getenv("SLIPWAVE_SEED");
   const unsigned first = alone ? unsigned(std::atoi(alone)) : 1;
-  const unsigned last = alone ? first : long_form() ? 120 : 60;
+  const unsigned last = alone ? first : long_form() ? 120 : 30;
   for (unsigned seed = first; seed <= last; ++seed) {
     const Drawn drawn = draw(seed);
     SCOPED_TRACE(shown(drawn, seed));
@@ -351,7 +351,7 @@ TEST(RandomScenes, StopGrowingWithTheirSource) {
 TEST(RandomScenes, StopGrowingWithTheCentredCorrectionToo) {
   const ThreadLimit one_thread(1);
   int scenes = 0;
-  for (unsigned seed = 1; scenes < (long_form() ? 40 : 8); ++seed) {
+  for (unsigned seed = 1; scenes < (long_form() ? 40 : 5); ++seed) {
     Drawn drawn = draw(seed);
     if (drawn.scene.model.fracture_sets.empty()) continue;
     ++scenes;
@@ -364,7 +364,7 @@ TEST(RandomScenes, StopGrowingWithTheCentredCorrectionToo) {
 TEST(RandomScenes, OfPlanesThatGiveWayStopGrowingToo) {
   const ThreadLimit one_thread(1);
   int scenes = 0;
-  for (unsigned seed = 1; scenes < (long_form() ? 40 : 18); ++seed) {
+  for (unsigned seed = 1; scenes < (long_form() ? 40 : 10); ++seed) {
     Drawn drawn = draw(seed);
     if (drawn.scene.model.fracture_sets.empty()) continue;
     ++scenes;

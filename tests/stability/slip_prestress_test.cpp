@@ -58,10 +58,14 @@ const std::vector<Law>& some_laws() {
 /// Cluster, law and amplitude of the waves against a prestress of 10 MPa, for every case.
 template <class Real, class Run>
 void each(Rotation& rotation, const Planes& planes, const Run& run) {
+  std::size_t turn = 0;
   for (const auto& law : some_laws())
     for (const char* cluster : {"one cell", "one row", "everywhere, so every edge"})
       for (const double amplitude : {1., 1e-6}) {
         rotation.next();
+        // In the short form every other case, in float the others.
+        const std::size_t now = turn++;
+        if (!long_form() && (now / 2 + now + sizeof(Real) / 4) % 2 != 0) continue;
         const double strength_pa = law.friction == 0 ? 1e6 : 0;
         SCOPED_TRACE(std::string(cluster) + ", friction " + std::to_string(law.friction) + ", viscosity " +
                      std::to_string(law.viscosity_s) + ", amplitude " + std::to_string(amplitude) + ", " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Slip takes energy out of the waves: friction, viscosity and the opening of planes can do nothing else. With
 // stress that the scene was built with it is another sum that falls, see slip_prestress_test.cpp.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -19,6 +20,13 @@ using Case = std::tuple<Planes, SlipCorrection>;
 class Slip : public ::testing::TestWithParam<Case> {
  protected:
   const Planes& planes() const { return std::get<0>(GetParam()); }
+  std::size_t turn() const {
+    return std::size_t(std::find_if(kinds_of_planes().begin(), kinds_of_planes().end(),
+                                    [&](const Planes& kind) { return kind.name == planes().name; }) -
+                       kinds_of_planes().begin());
+  }
+  /// In the short form a third of the laws, another one for the next kind of planes.
+  std::vector<Law> some_laws() const { return share_of(laws(), turn()); }
   template <class Real>
   typename Lab<Real>::Setup setup(const Cluster& cluster, const FractureSet<2>& set) const {
     auto setup = fractured<Real>(medium_named(cluster.medium, cells()), cluster, set);
@@ -45,24 +53,31 @@ class Slip : public ::testing::TestWithParam<Case> {
 }  // namespace
 
 TEST_P(Slip, NeverAddsEnergy) {
-  for (const auto& law : laws())
-    for (const auto& cluster : clusters())
+  for (std::size_t n = 0; n < laws().size(); ++n)
+    for (std::size_t m = 0; m < clusters().size(); ++m) {
+      // In the short form every other case of each kind of planes.
+      if (!long_form() && (n + m + turn()) % 2 != 0) {
+        rotation_.next();
+        continue;
+      }
       if (rotation_.in_double())
-        expect_no_growth<double>(cluster, law, 1, 0);
+        expect_no_growth<double>(clusters()[m], laws()[n], 1, 0);
       else
-        expect_no_growth<float>(cluster, law, 1, 0);
+        expect_no_growth<float>(clusters()[m], laws()[n], 1, 0);
+    }
 }
 
 TEST_P(Slip, NeverAddsEnergyToEnormousWaves) {
-  for (const auto& law : laws()) expect_no_growth<float>(cluster_named("every second cell"), law, 1e20, 0);
+  for (const auto& law : some_laws())
+    expect_no_growth<float>(cluster_named("every second cell"), law, 1e20, 0);
 }
 
 TEST_P(Slip, NeverAddsEnergyToTinyWaves) {
-  for (const auto& law : laws()) expect_no_growth<float>(cluster_named("a block inside"), law, 1e-15, 0);
+  for (const auto& law : some_laws()) expect_no_growth<float>(cluster_named("a block inside"), law, 1e-15, 0);
 }
 
 TEST_P(Slip, NeverAddsEnergyToDenormalWaves) {
-  for (const auto& law : laws()) {
+  for (const auto& law : some_laws()) {
     // Stresses near 1e-37 Pa beside velocities that are denormal: what the smallest numbers round off is
     // the whole field. It may not grow past that.
     expect_no_growth<float>(cluster_named("every second cell"), law, 1e-44, 4);
@@ -75,7 +90,7 @@ TEST_P(Slip, NeverAddsEnergyToDenormalWaves) {
 
 TEST_P(Slip, NeverAddsEnergyWherePlanesCarryNoNormalStress) {
   // S waves along z across planes that lie along x: s_n = 0 to the last bit in every step.
-  for (const auto& law : laws())
+  for (const auto& law : some_laws())
     for (const double strength_pa : {0., 1e5}) {
       rotation_.next();
       SCOPED_TRACE(rotation_.shown() + ", strength " + std::to_string(strength_pa));
@@ -93,7 +108,7 @@ TEST_P(Slip, NeverAddsEnergyWherePlanesCarryNoNormalStress) {
 
 TEST_P(Slip, NeverAddsEnergyWhereNormalStressAlternates) {
   // Tension beside pressure from cell to cell, at rest: next step the other way round.
-  for (const auto& law : laws()) {
+  for (const auto& law : some_laws()) {
     rotation_.next();
     SCOPED_TRACE(rotation_.shown());
     auto given = setup<double>(cluster_named("everywhere, so every edge"), set_of(planes(), law));

@@ -88,6 +88,8 @@ void expect_bounded(const typename Lab<Real>::Setup& given) {
   }
 }
 
+const std::vector<std::string> media = {"SofterRockInRock", "SoilOverRock", "RandomMixture"};
+
 class SplitFaces : public ::testing::TestWithParam<std::string> {};
 
 // Proves (S35).
@@ -130,12 +132,14 @@ TEST_P(SplitFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
                           {0.5, 1e5, 1e2, true, 5e-10, 0, 1e-4},
                           {0.8, 0, 0, true, 1e-9, 0.3, 1e-9}};
   unsigned next = 1;
+  const auto medium = unsigned(std::find(media.begin(), media.end(), GetParam()) - media.begin());
   for (const int order : orders_tried())
     for (const auto& plane : planes) {
       const unsigned seed = next++;
       const bool even = (seed + seed / 10) % 2 == 0;
-      // The long form shares the kinds out among the orders.
-      if (long_form() && (seed + unsigned(order) / 2) % 2 == 0) continue;
+      // The long form shares the kinds out among the orders; the short form gives each one, in each medium
+      // another.
+      if (long_form() ? (seed + unsigned(order) / 2) % 2 == 0 : (seed + medium) % 3 != 0) continue;
       const auto run = [&](auto real) {
         typename Lab<decltype(real)>::Setup setup;
         setup.medium = medium_named(GetParam(), cells());
@@ -204,8 +208,7 @@ TEST(SpringsOnFaces, NearAnInterfaceLoseEnergyAtHighOrders) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Media, SplitFaces,
-                         ::testing::Values("SofterRockInRock", "SoilOverRock", "RandomMixture"),
+INSTANTIATE_TEST_SUITE_P(Media, SplitFaces, ::testing::ValuesIn(media),
                          [](const auto& info) { return info.param; });
 
 }  // namespace

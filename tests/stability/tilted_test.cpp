@@ -85,7 +85,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
   const int media = long_form() ? 6 : 4, steps = long_form() ? 20000 : 200;
   for (int n = 0; n < media; ++n)
     for (const int block : {1, 4})
-      for (const int order : {3, 5, 7}) {
+      for (const int order : share_of(std::vector{3, 5, 7}, std::size_t(n + block / 4))) {
         SCOPED_TRACE("medium " + std::to_string(n) + " block " + std::to_string(block) + " order " +
                      std::to_string(order));
         // Of two media in turn: impedances that tilted means may part, and any, where some stay isotropic.
@@ -109,10 +109,11 @@ TEST(EnergyOfTiltedMeans, NeverRisesUpToTheLargestContrastTheyPart) {
   // Impedances of P, of S, and of both, 3.9 times those above.
   const Material slow{1600, 900, 1800};
   const int steps = long_form() ? 20000 : 300;
+  int turn = 0;
   for (const double dip : {0., 8., 22., 38., 45., 60., 82., -30.})
     for (const Material& fast :
          {Material{4160, 1200, 2700}, Material{2600, 1500, 2700}, Material{4160, 2340, 2700}})
-      for (const int order : long_form() ? std::vector{3, 5, 7, 9, 11} : std::vector{5, 9}) {
+      for (const int order : long_form() ? std::vector{3, 5, 7, 9, 11} : std::vector{turn++ % 2 ? 9 : 5}) {
         SCOPED_TRACE("dip " + std::to_string(dip) + " order " + std::to_string(order));
         const auto medium = cut(32, dip, slow, fast);
         ASSERT_GT(solver::make_domain<2>(medium, all_edges(EdgeLaw::rigid), 0).anisotropic_cells().size(),
@@ -128,10 +129,11 @@ TEST(EnergyOfTiltedMeans, NeverRisesAtInterfacesOfAnyDipAndContrast) {
   const ThreadLimit one_thread(1);
   const Material soft{1600, 400, 1800}, harder{2500, 1200, 2100}, hardest{6000, 3500, 2800};
   const int steps = long_form() ? 20000 : 300;
+  std::size_t turn = 0;
   for (const double dip : {0., 3., 15., 30., 45., 75.})
     for (const auto& [over, under] :
          {std::pair{soft, harder}, std::pair{soft, hardest}, std::pair{hardest, soft}})
-      for (const int order : {3, 5, 7}) {
+      for (const int order : share_of(std::vector{3, 5, 7}, turn++ % 4)) {
         SCOPED_TRACE("dip " + std::to_string(dip) + " order " + std::to_string(order));
         const auto medium = cut(32, dip, over, under);
         ASSERT_GT(tilted_means(medium), 20);
