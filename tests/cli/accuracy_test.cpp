@@ -143,7 +143,7 @@ TEST_F(Accuracy, WantedOfAShotIsMeasuredAndKept) {
   done("sw-layers --size 600x600 --step 2.5 --layer 0:3000:1500:2200 -o fine.nc");
   done("sw-shoot fine.nc " + rock_shot + "--order 7 --cfl 0.4 -o fine.sgy");
   double before = 1;
-  for (const double wanted : {0.04, 0.01}) {
+  for (const double wanted : long_form() ? std::vector{0.04, 0.01} : std::vector{0.04}) {
     const Ran ran = run("sw-shoot rock.nc " + rock_shot + "--error " + std::to_string(wanted) +
                         " --error-gather error.sgy --json -o chosen.sgy");
     EXPECT_EQ(ran.code, 0) << ran.err;

@@ -109,7 +109,10 @@ TEST_P(BadInput, IsRefusedInOneLineAndNothingIsWritten) {
   static const Beside beside;
   const auto before = beside.contents();
   const std::string shot = "shot='--source 100,50 --wavelet ricker:15 --receivers 0:200:50,20 --time 0.1'; ";
-  for (const auto& row : rows_of(GetParam())) {
+  const auto rows = rows_of(GetParam());
+  // The short form has every other row of long tables.
+  for (std::size_t n = 0; n < rows.size(); n += long_form() || rows.size() < 30 ? 1 : 2) {
+    const auto& row = rows[n];
     const Ran ran = beside.run(shot + row.complete());
     EXPECT_EQ(ran.code, row.code) << row.place << ": " << row.line;
     EXPECT_TRUE(matches(ran.err, row.tool() + ": " + row.sentence + "\n"))

@@ -130,6 +130,7 @@ TEST_F(Cube, ShowsSlicesOfFittedGridsAtTrueDepths) {
       "--fields vz,div -q -o /dev/null ";
   done(snapshots + "--snapshots volume.nc");
   for (const std::string plane : {"x=105", "y=65", "z=37"}) {
+    if (!long_form() && plane[0] == 'y') continue;
     done(snapshots + "--snapshots slice.nc --slice " + plane);
     EXPECT_EQ(has(done("ncdump -h slice.nc"), "vz:coordinates = \"depth\""), plane[0] != 'z');
     done("sw-plot volume.nc --over m.nc --slice " + plane +

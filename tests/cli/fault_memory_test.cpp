@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstdlib>
 
 #include "fault_scene.hpp"
 
@@ -13,7 +12,7 @@ using FaultOfMemory = FaultScene;
 TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
   // Address space in KiB: the libraries alone take some 80 MiB. Limits go up until the tool has what it
   // needs; by how much at a time is what the long form refines.
-  const int step = std::getenv("SLIPWAVE_LONG") ? 4000 : 16000;
+  const int step = long_form() ? 4000 : 32000;
   int told = 0;
   for (const auto& command : commands()) {
     if (command.output.empty()) continue;

@@ -33,7 +33,7 @@ TEST_F(FaultOfReading, ADiskThatFailsIsNamedWithItsFile) {
     if (command.arguments.find("in/") == std::string::npos) continue;
     if (!command.output.empty()) write(command.output, "older");
     int failed = 0;
-    for (int number = 1; number < 1000; number += 1 + number / 5) {
+    for (int number = 1; number < 1000; number += 1 + number / (long_form() ? 5 : 2)) {
       const Ran ran = run(with_fault("read:" + std::to_string(number) + ":5", command.to_file()));
       if (ran.code == 0) break;
       ++failed;

@@ -7,6 +7,7 @@
 //   close:N:E    likewise closing a regular file that may be written; it is closed all the same
 //   rename:N:E   likewise renaming
 //   read:N:E     likewise reading a regular file
+//   hold:F:N     the process stops itself (SIGSTOP) once it has renamed a file to F for the N-th time
 //   unit         powers of two are 1, and with them the unit of the fields: strong sources overflow
 // Standard error always works.
 
@@ -19,6 +20,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -26,7 +28,7 @@
 namespace {
 
 struct Fault {
-  std::string kind;
+  std::string kind, name;
   long number = 0;
   int error_number = 0;
 };
@@ -40,6 +42,7 @@ const Fault& fault() {
     const auto first = all.find(':'), second = all.rfind(':');
     found.kind = all.substr(0, first);
     if (first == std::string::npos) return found;
+    found.name = all.substr(first + 1, second - first - 1);
     found.number = std::atol(all.c_str() + first + 1);
     found.error_number = std::atoi(all.c_str() + second + 1);
     return found;
@@ -103,6 +106,12 @@ bool interrupted(int descriptor) {
   return true;
 }
 
+void hold_after(const char* renamed_to) {
+  static std::atomic<long> times{0};
+  if (fault().kind != "hold" || fault().name != renamed_to + std::string(renamed_to).rfind('/') + 1) return;
+  if (++times == fault().error_number) std::raise(SIGSTOP);
+}
+
 }  // namespace
 
 extern "C" {
@@ -158,7 +167,9 @@ int close(int descriptor) {
 
 int rename(const char* from, const char* to) noexcept {
   if (fails("rename")) return -1;
-  return next<int (*)(const char*, const char*)>("rename")(from, to);
+  const int renamed = next<int (*)(const char*, const char*)>("rename")(from, to);
+  hold_after(to);
+  return renamed;
 }
 
 double exp2(double power) noexcept {

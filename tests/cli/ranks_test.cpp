@@ -73,7 +73,7 @@ TEST_F(ShotByRanks, IsTheSameWhereFracturesLieOnFaces) {
   done("sw-layers --size 400x500 --step 5 --layer 0:3000:1600:2200 -o f.nc");
   const auto expect_same = [&] {
     const std::string shot =
-        "f.nc --source 150,100 --wavelet ricker:40 --amplitude 1e9 --time 0.2 --receivers 200,248 "
+        "f.nc --source 150,100 --wavelet ricker:40 --amplitude 1e9 --time 0.15 --receivers 200,248 "
         "--receivers 100:300:100,400 ";
     expect_same_traces(2, shot);
   };

@@ -12,6 +12,9 @@ struct Ran {
   double peak_mib = 0;  // resident memory of the largest process
 };
 
+/// Whether SLIPWAVE_LONG asks for the long form.
+bool long_form();
+
 /// A test that runs shell lines in a fresh temporary directory, removed afterwards, with the tools of this
 /// build first on PATH. The name of a file in a line is relative to that directory. A line may use
 ///   await 'COMMAND'  until the command succeeds, for half a minute at most, then says what it waited for

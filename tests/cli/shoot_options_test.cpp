@@ -70,7 +70,7 @@ TEST_F(ShootOptions, SayWhatBandsOfCellsWouldSave) {
   done("sw-layers --size 200x200 --step 1 --layer 0:900:300:1800 --layer 30:3500:2000:2300 -o soft.nc");
   const auto said = [&](const std::string& model, const std::string& options, const std::string& output) {
     return run("sw-shoot " + model +
-               " --source 100,8 --wavelet ricker:15 --receivers 50:150:10,20 --time 0.2 " + options + "-o " +
+               " --source 100,8 --wavelet ricker:15 --receivers 50:150:10,20 --time 0.12 " + options + "-o " +
                output)
         .err;
   };

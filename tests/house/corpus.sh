@@ -11,7 +11,7 @@ if [ ! -d "$corpus" ]; then
 fi
 # shellcheck source=tests/house/lib.sh
 . "$(dirname -- "$0")/lib.sh"
-"$bin/sw-layers" -q --size 900x300 --step 10 --layer 0:1800:0:1000 --layer 150:2500:1200:2100 -o "$work/m.nc"
+"$bin/sw-layers" -q --size 900x300 --step 20 --layer 0:1800:0:1000 --layer 150:2500:1200:2100 -o "$work/m.nc"
 
 # shoots FILE TRACES T0:T1 DT [OPTION...]: the file's traces, of those times, in its order.
 shoots() {

@@ -10,7 +10,7 @@ build=$2
 unset MAKEFLAGS MAKELEVEL
 PATH=$build/bin:$PATH
 cd "$work"
-sw-layers --size 1500x900 --step 5 --layer 0:1500:0:1000 --layer 200:2500:1300:2200 -q -o model.nc
+sw-layers --size 1500x900 --step 10 --layer 0:1500:0:1000 --layer 200:2500:1300:2200 -q -o model.nc
 cat > Makefile <<'END'
 include $(SURVEY_MK)
 X = 300 500 700 900 1100 1300

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -99,7 +100,11 @@ template <class Correction>
 std::vector<double> errors(const Loading& loading, double degrees, int coarsest, int doublings) {
   const Rock rock;
   const double end = 0.4;
-  const double exact = reference(rock, loading, end);
+  // For all planes and corrections the same.
+  static std::map<const Loading*, double> known;
+  const auto [at, is_new] = known.try_emplace(&loading);
+  if (is_new) at->second = reference(rock, loading, end);
+  const double exact = at->second;
   const auto [n, m] = plane(degrees);
   std::vector<double> found;
   for (int k = 0; k <= doublings; ++k)

@@ -162,7 +162,7 @@ class MarmousiLikeness : public ::testing::Test {
     };
     real_ = rocks_of({read("vp"), read("vs"), read("rho")});
     print("real", real_);
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (std::getenv("SLIPWAVE_LONG") ? 6 : 3); ++seed) {
       MarmousiSettings settings;
       settings.seed = seed, settings.water_m = 440;
       drawn_.push_back(rocks_of(marmousi_medium(grid, settings)));
@@ -177,21 +177,24 @@ class MarmousiLikeness : public ::testing::Test {
 }  // namespace
 
 TEST_F(MarmousiLikeness, IsOfSpeedsDensitiesAndLengthsButNotOfPlaces) {
+  const auto real_vp = sorted(real_.vp), real_rho = sorted(real_.rho);
+  const double real_lengths[] = {correlation_length(real_.vp, false), correlation_length(real_.vp, true)};
+  const double real_reflectivity = reflectivity(real_.vp, real_.rho);
   for (const auto& rocks : drawn_) {
-    const auto vp = sorted(rocks.vp), real_vp = sorted(real_.vp);
+    const auto vp = sorted(rocks.vp);
     EXPECT_LT(distance(vp, real_vp), 200);  // of a mean of 3186 m/s
     EXPECT_NEAR(mean(vp), mean(real_vp), 0.05 * mean(real_vp));
     EXPECT_NEAR(deviation(vp), deviation(real_vp), 0.15 * deviation(real_vp));
-    const auto rho = sorted(rocks.rho), real_rho = sorted(real_.rho);
+    const auto rho = sorted(rocks.rho);
     EXPECT_LT(distance(rho, real_rho), 60);  // of 2241 kg/m3
     EXPECT_NEAR(mean(rho), mean(real_rho), 0.03 * mean(real_rho));
     EXPECT_NEAR(deviation(rho), deviation(real_rho), 0.35 * deviation(real_rho));
     for (const bool along_x : {false, true}) {
-      const double ratio = correlation_length(rocks.vp, along_x) / correlation_length(real_.vp, along_x);
+      const double ratio = correlation_length(rocks.vp, along_x) / real_lengths[along_x];
       EXPECT_GT(ratio, 0.5) << along_x;
       EXPECT_LT(ratio, 2) << along_x;
     }
-    EXPECT_NEAR(reflectivity(rocks.vp, rocks.rho) / reflectivity(real_.vp, real_.rho), 1, 0.3);
+    EXPECT_NEAR(reflectivity(rocks.vp, rocks.rho) / real_reflectivity, 1, 0.3);
     EXPECT_LT(resemblance(rocks.vp, real_.vp), 0.5);
   }
   for (std::size_t a = 0; a < drawn_.size(); ++a)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <string>
 
@@ -151,12 +152,17 @@ void expect_in_order(const Picture& picture, const Page& given, const std::strin
 }
 
 TEST(PlotLayout, NothingIsClippedAndNoTextsOverlap) {
+  const std::vector<std::string> titles = {"", "Short", long_title};
+  std::size_t turn = 0;
   for (const auto& [name, draw] : kinds()) {
     for (const char* size : {"", "16x10cm", "9x7cm", "7x12cm", "30x8cm", "1200x800px"}) {
-      for (const auto& title : {std::string(), std::string("Short"), long_title}) {
-        const Page page = coarse_page(size, title);
+      ++turn;
+      for (std::size_t n = 0; n < titles.size(); ++n) {
+        // In the short form each kind has one title in each size, and each size all titles in turn.
+        if (!std::getenv("SLIPWAVE_LONG") && (n + turn + turn / 6) % 3 != 0) continue;
+        const Page page = coarse_page(size, titles[n]);
         SCOPED_TRACE(name);
-        expect_in_order(draw(page), page, name + " " + size + " " + title.substr(0, 5));
+        expect_in_order(draw(page), page, name + " " + size + " " + titles[n].substr(0, 5));
       }
     }
   }

@@ -49,8 +49,11 @@ TEST(WrittenGather, IsReadAlikeInEveryFormatAndByteOrder) {
   if (!checker_runs())
     GTEST_SKIP() << "the checker ../shared/tools/check_segy.py, numpy or segyio is not there";
   const Scratch scratch;
+  std::size_t turn = 0;
   for (const SampleFormat& format : sample_formats())
     for (const Endian endian : {Endian::big, Endian::little}) {
+      // In the short form each format in one order of bytes.
+      if (const auto now = turn++; !std::getenv("SLIPWAVE_LONG") && (now + now / 2) % 2 != 0) continue;
       const std::string path = scratch.file("g.sgy");
       write_file(path, survey_gather(51, 1), {format.code, 2, endian, TextEncoding::ascii, false});
       const std::string facts = "--expect format=" + std::to_string(format.code) +

@@ -112,7 +112,7 @@ TEST(Conversion, CopiesUndecodedSamplesAsItWritesDecodedOnes) {
 TEST(Conversion, CopiesTracesThatAreLongerThanAnyBuffer) {
   const Scratch scratch;
   const FileFormat format{6, 2, Endian::big, TextEncoding::ebcdic, false};
-  write_file(scratch.file("a"), survey_gather(300'000, 1), format);
+  write_file(scratch.file("a"), survey_gather(150'000, 1), format);
   convert<RawTrace>(scratch.file("a"), scratch.file("b"), format);
   EXPECT_EQ(after_text(scratch.file("b")), after_text(scratch.file("a")));
 }
