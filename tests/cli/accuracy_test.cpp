@@ -9,6 +9,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::accuracy_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -274,3 +275,5 @@ TEST_F(Accuracy, OfAFullSpaceIsBelowAPercentAfterTwentyWavelengthsLong) {
   EXPECT_LT(rows[1][error], 1) << text;
   EXPECT_TRUE(has(text, "  <\n")) << text;
 }
+
+}  // namespace slipwave::accuracy_test

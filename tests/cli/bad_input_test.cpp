@@ -8,6 +8,7 @@
 #include "bad_models.hpp"
 #include "shell.hpp"
 
+namespace slipwave::bad_input_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -146,3 +147,5 @@ TEST(BadInputTables, HoldHundredsOfRowsAndRowsOfEveryTool) {
     EXPECT_TRUE(tool.compare(0, 3, "sw-") != 0 || of_tool[tool] >= 9) << tool;
   }
 }
+
+}  // namespace slipwave::bad_input_test

@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::chain_test {
 namespace {
 
 using Chain = Shell;
@@ -63,3 +64,5 @@ TEST_F(Chain, ResponsesAreComparedAndTransformed) {
   done(layers + "-o intact.nc; " + shoot + "-o a.sgy < intact.nc; " + shoot +
        "--without slip -q -o b.sgy < intact.nc; sw-compare a.sgy b.sgy --tolerance 0 > /dev/null");
 }
+
+}  // namespace slipwave::chain_test

@@ -7,6 +7,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::checkpoint_test {
 namespace {
 
 /// A run of about a tenth of a second with cracks, and what it gives when nobody disturbs it.
@@ -275,3 +276,5 @@ TEST_F(Checkpoint, InADirectoryThatMayNotBeWrittenIsSaidBeforeAnythingIsComputed
   expect_refused(as + "bin/" + shoot + "--checkpoint closed/c -o /dev/null", 1,
                  "sw-shoot: closed/c: Permission denied");
 }
+
+}  // namespace slipwave::checkpoint_test

@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::compliance_test {
 namespace {
 
 /// Planes that give way like springs, from the command line to traces.
@@ -262,3 +263,5 @@ TEST_F(Compliance, HasAResponseWhoseErrorIsMeasuredAndChosen) {
   EXPECT_TRUE(has(done("sw-shoot f.nc" + shot + "-q --plan --measure --of response"),
                   "% of what fractures add to the traces"));
 }
+
+}  // namespace slipwave::compliance_test

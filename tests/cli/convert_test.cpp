@@ -4,6 +4,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::convert_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -138,3 +139,5 @@ TEST_F(Convert, NeedsTheMemoryOfOneTrace) {
         << tool;
   }
 }
+
+}  // namespace slipwave::convert_test

@@ -4,6 +4,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::cube_test {
 namespace {
 
 /// From a model to pictures in three dimensions.
@@ -148,3 +149,5 @@ TEST_F(Cube, GoesOnFromACheckpoint) {
   done(run + "--checkpoint c -o b.sgy");
   done("cmp a.sgy b.sgy");
 }
+
+}  // namespace slipwave::cube_test

@@ -3,6 +3,8 @@
 
 #include "shell.hpp"
 
+namespace slipwave::exchange_test {
+
 // What docs/exchange.md promises beside its recipes, which the test house.exchange runs.
 
 namespace {
@@ -141,3 +143,5 @@ TEST_F(Exchange, RecipeOfSeismicUnixLeavesHeadersAndNativeFloats) {
             "True True False\n");
   done("sw-compare back.sgy gather.sgy --tolerance 0 > /dev/null");
 }
+
+}  // namespace slipwave::exchange_test

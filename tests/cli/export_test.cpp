@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::export_test {
 namespace {
 
 class Export : public Shell {
@@ -116,3 +117,5 @@ TEST_F(Export, RefusesWhatItCannotExport) {
     EXPECT_FALSE(exists("out.sgy")) << one.line;
   }
 }
+
+}  // namespace slipwave::export_test

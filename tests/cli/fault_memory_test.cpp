@@ -3,6 +3,7 @@
 
 #include "fault_scene.hpp"
 
+namespace slipwave::fault_memory_test {
 namespace {
 
 using FaultOfMemory = FaultScene;
@@ -41,3 +42,5 @@ TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
   // Some of them have words of the loader at one limit, and room enough at the next.
   EXPECT_GE(told, 10);
 }
+
+}  // namespace slipwave::fault_memory_test

@@ -13,9 +13,8 @@
 #include "model/model_report.hpp"
 #include "shell.hpp"
 
+namespace slipwave::fault_model_test {
 namespace {
-
-using namespace slipwave;
 
 /// What becomes of reading a model, in a process of its own with little time and memory.
 enum class End { read, refused, out_of_memory, other };
@@ -97,3 +96,5 @@ TEST_F(FaultOfModels, AnyByteOfAClassicFileMayBeWrong) {
     ends_of_flips(content("c.nc"), long_form() ? 1 : 89, {0xff, 0x01, 0x80});
   }
 }
+
+}  // namespace slipwave::fault_model_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fault_scene.hpp"
 
+namespace slipwave::fault_pipe_test {
 namespace {
 
 class FaultOfPipes : public FaultScene {
@@ -53,3 +54,5 @@ TEST_F(FaultOfPipes, AClosedStandardInputIsSaid) {
     expect_refused(line + " <&-", 1,
                    line.substr(0, line.find(' ')) + ": standard input: Bad file descriptor");
 }
+
+}  // namespace slipwave::fault_pipe_test

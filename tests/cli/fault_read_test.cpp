@@ -3,6 +3,7 @@
 
 #include "fault_scene.hpp"
 
+namespace slipwave::fault_read_test {
 namespace {
 
 using FaultOfReading = FaultScene;
@@ -58,3 +59,5 @@ TEST_F(FaultOfReading, ShortReadsOfClassicModelsAreNoZeros) {
     EXPECT_EQ(done(line + " | cksum"), done(with_fault("short", line) + " | cksum")) << kind;
   }
 }
+
+}  // namespace slipwave::fault_read_test

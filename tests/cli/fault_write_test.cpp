@@ -3,6 +3,7 @@
 
 #include "fault_scene.hpp"
 
+namespace slipwave::fault_write_test {
 namespace {
 
 constexpr int input_output_error = 5, no_space = 28, over_quota = 122;
@@ -156,3 +157,5 @@ TEST_F(FaultOfWriting, AnOutputWhoseDirectoryIsGoneBeforeTheFirstByteIsMissed) {
   EXPECT_EQ(ran.code, 1);
   EXPECT_EQ(ran.err, "sw-fracture: there/out: No such file or directory\n");
 }
+
+}  // namespace slipwave::fault_write_test

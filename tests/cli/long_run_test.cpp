@@ -4,6 +4,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::long_run_test {
 namespace {
 
 using LongRun = Shell;
@@ -58,3 +59,5 @@ TEST_F(LongRun, TheLineOfABarIsFinishedWhenASignalEndsTheRun) {
     done("rm seen pid");
   }
 }
+
+}  // namespace slipwave::long_run_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shell.hpp"
 
+namespace slipwave::model_averaging_test {
 namespace {
 
 using ModelAveraging = Shell;
@@ -26,3 +27,5 @@ TEST_F(ModelAveraging, OfLargerCellsIsSwitchedOffByItsOption) {
   EXPECT_TRUE(has(done(import + "| sw-info -"), "vp            2793.5")) << done(import + "| sw-info -");
   EXPECT_TRUE(has(done(import + "--no-average | sw-info -"), "vp            2927"));
 }
+
+}  // namespace slipwave::model_averaging_test

@@ -4,6 +4,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::model_fault_test {
 namespace {
 
 using ModelFault = Shell;
@@ -122,3 +123,5 @@ TEST_F(ModelFault, AnOutputKeepsItsModeAndALinkStaysALink) {
             "new.nc 640 regular file\nold.nc 604 regular file\nlink.nc 777 symbolic link\n");
   done("cmp new.nc old.nc");
 }
+
+}  // namespace slipwave::model_fault_test

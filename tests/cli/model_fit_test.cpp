@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shell.hpp"
 
+namespace slipwave::model_fit_test {
 namespace {
 
 using ModelFit = Shell;
@@ -111,3 +112,5 @@ TEST_F(ModelFit, OfImportedStairsLeavesOutVoidAboveTheSurface) {
   EXPECT_EQ(ran.err, "sw-import: fitted: surface at sine,52,12,400, rows 0.85 to 1.11 of 5 m\n");
   EXPECT_TRUE(has(done("sw-info m.nc"), "void cells       0\n")) << done("sw-info m.nc");
 }
+
+}  // namespace slipwave::model_fit_test

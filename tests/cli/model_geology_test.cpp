@@ -4,6 +4,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::model_geology_test {
 namespace {
 
 using ModelGeology = Shell;
@@ -146,3 +147,5 @@ TEST_F(ModelGeology, OfLayersWithAGradientBendsRaysAsInTheClosedForm) {
   const double late = std::atof(done("sw-compare faster.sgy gradient.sgy | awk 'END { print $NF }'").c_str());
   EXPECT_NEAR(std::abs(late), 0.0029, 3e-4);
 }
+
+}  // namespace slipwave::model_geology_test

@@ -5,6 +5,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::model_pipeline_test {
 namespace {
 
 const std::string layers =
@@ -221,3 +222,5 @@ TEST_F(ModelPipeline, TakesAWellLogWithOneLineOfReport) {
   EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
   EXPECT_TRUE(has(done("sw-info m.nc"), "10 x 80 cells of 5 m"));
 }
+
+}  // namespace slipwave::model_pipeline_test

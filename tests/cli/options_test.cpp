@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::options_test {
 namespace {
 
 using Options = Shell;
@@ -171,3 +172,5 @@ TEST_F(OptionPairs, InAFileOfOptionsWaitOrGiveWay) {
   expect_refused(shoot + "--json", 2,
                  "sw-shoot: found --json without --plan, --measure or --error, expected one of them");
 }
+
+}  // namespace slipwave::options_test

@@ -3,6 +3,8 @@
 
 #include "shell.hpp"
 
+namespace slipwave::output_test {
+
 // Outputs that hold what they were given, or say by how much they do not.
 
 namespace {
@@ -181,3 +183,5 @@ TEST_F(Output, OfAFibreInADeviatedWell) {
   done(
       "sw-compare <(sw-select d.sgy --where tracf=7) <(sw-select x.sgy --where tracf=7) --tolerance 1e-6 -q");
 }
+
+}  // namespace slipwave::output_test

@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::plan_memory_test {
 namespace {
 
 /// What sw-shoot --plan says of memory, against the peak that the run has then.
@@ -56,3 +57,5 @@ TEST_F(PlannedMemory, OfManyTracesAndShotsIsThatOfTheRun) {
       "0.2 "
       "--wavelet ricker:10 -q --threads 2");
 }
+
+}  // namespace slipwave::plan_memory_test

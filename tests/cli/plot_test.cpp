@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::plot_test {
 namespace {
 
 using Plot = Shell;
@@ -300,3 +301,5 @@ TEST_F(Plot, ADamagedFileLeavesAnOlderPictureAsItWas) {
   EXPECT_TRUE(has(ran.err, "sw-plot: cut.nc: ")) << ran.err;
   done("cmp m.png old.png");
 }
+
+}  // namespace slipwave::plot_test

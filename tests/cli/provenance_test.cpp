@@ -3,6 +3,8 @@
 
 #include "shell.hpp"
 
+namespace slipwave::provenance_test {
+
 // What files say of the commands that made them, and that these commands make them again, to the bit.
 
 namespace {
@@ -103,3 +105,5 @@ TEST_F(Provenance, IsNotMadeUp) {
   expect_refused("sw-info --command --json m.nc", 2,
                  "sw-info: found --json and --command, expected one of them");
 }
+
+}  // namespace slipwave::provenance_test

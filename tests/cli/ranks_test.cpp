@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::ranks_test {
 namespace {
 
 /// sw-shoot under the launcher of an MPI, where there is one.
@@ -132,3 +133,5 @@ TEST_F(ShotByRanks, KeepsWhatAnUnstableShotRecorded) {
   EXPECT_NE(said(ran).find("is in unstable-o.sgy\n"), std::string::npos) << ran.err;
   EXPECT_EQ(files(), "m.nc unstable-o.sgy");
 }
+
+}  // namespace slipwave::ranks_test

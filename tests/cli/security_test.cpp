@@ -5,6 +5,7 @@
 
 #include "fault_scene.hpp"
 
+namespace slipwave::security_test {
 namespace {
 
 /// What tools do with names and texts that somebody chose to do harm.
@@ -63,3 +64,5 @@ TEST_F(Security, TemporariesAreNobodyElsesWhileToolsRun) {
     EXPECT_EQ(ran.out, "600\n0\n666\n") << tool << '\n' << ran.err;
   }
 }
+
+}  // namespace slipwave::security_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shell.hpp"
 
+namespace slipwave::shoot_bad_input_test {
 namespace {
 
 const std::string shoot = "sw-shoot m.nc -o out.sgy ";
@@ -105,3 +106,5 @@ TEST_F(ShootBadInput, WhatOnlyLooksBadIsDone) {
   done("sw-layers --size 200x100 --step 5 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti.nc");
   done("sw-shoot vti.nc -o out.sgy --kind plane:20 --top absorbing --without anisotropy " + shallow);
 }
+
+}  // namespace slipwave::shoot_bad_input_test

@@ -5,6 +5,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::shoot_options_test {
 namespace {
 
 const std::string shoot = "sw-shoot m.nc --wavelet ricker:20 --time 0.15 --receivers 0:400:50,20 ";
@@ -271,3 +272,5 @@ TEST_F(ShootOptions, WriteGathersThatAnIndependentReaderAccepts) {
   const Ran ran = run("/usr/bin/python3 '" + checker + "' --profile shot --strict -q *.sgy");
   EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
 }
+
+}  // namespace slipwave::shoot_options_test

@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::streaming_test {
 namespace {
 
 /// Trace tools on a gather of 1 MB fifteen, thirty and sixty times over, through pipes.
@@ -73,3 +74,5 @@ TEST_F(Streaming, AReaderThatStopsEarlyStopsTheWholePipeQuietly) {
   EXPECT_NE(ran.code, 0);
   EXPECT_EQ(done("ls -A $TMPDIR"), "stderr\nstdout\nwork\n");
 }
+
+}  // namespace slipwave::streaming_test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shell.hpp"
 
+namespace slipwave::survey_test {
 namespace {
 
 const std::string source = "--wavelet ricker:20 --time 0.2 --dt 0.002 ";
@@ -300,3 +301,5 @@ TEST_F(SurveyOfSea, HeadersWithoutGeometrySayWhatIsMissing) {
       "z=0..300; the survey would begin at the model's origin with --origin 9999,0; or the scalar scalco "
       "(byte 71) 100 is reversed: it multiplies, -100 divides");
 }
+
+}  // namespace slipwave::survey_test

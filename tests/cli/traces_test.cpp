@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::traces_test {
 namespace {
 
 /// Tools that change traces, on the gathers of three shots.
@@ -221,3 +222,5 @@ TEST_F(Traces, HaveTheSameFkSpectrumInWhateverOrderTheyStand) {
   EXPECT_NE(done("sw-spectrum shot.sgy" + numbers), "");
   EXPECT_EQ(done("sw-spectrum shot.sgy" + numbers), done("sw-spectrum mixed.sgy" + numbers));
 }
+
+}  // namespace slipwave::traces_test

@@ -3,6 +3,7 @@
 
 #include "shell.hpp"
 
+namespace slipwave::unstable_test {
 namespace {
 
 /// A source so strong that the numbers of single precision end while it acts, as the unit of the fields is
@@ -121,3 +122,5 @@ TEST_F(UnstableRun, IsUnstableAgainWhenItGoesOnFromItsCheckpoint) {
   EXPECT_EQ(again.err.find("sw-shoot: continues from c: shot 1 at step "), 0u) << again.err;
   EXPECT_EQ(again.err.substr(again.err.find('\n') + 1), first.err);
 }
+
+}  // namespace slipwave::unstable_test

@@ -4,7 +4,7 @@
 
 #include "drawn_scene.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::exchange_test {
 namespace {
 
 /// Relative differences of the traces of a force along x or z at each of `from`, recorded along it at `to`,
@@ -111,4 +111,4 @@ TEST(Exchange, OfPressureAndExplosionOnTheSeaFloorTakesTheWatersSide) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::exchange_test

@@ -8,7 +8,7 @@
 #include "fitted_medium.hpp"
 #include "shared_out.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::surface_test {
 namespace {
 
 const char* const mechanisms[] = {"force:0.4,1", "explosion", "moment:1,-0.5,0.3"};
@@ -208,4 +208,4 @@ TEST(SameGround, InSpaceAsEdgeAndBelowVoidGivesTheSameTraces) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::surface_test

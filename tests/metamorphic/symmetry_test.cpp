@@ -10,7 +10,7 @@
 #include "drawn_scene.hpp"
 #include "model/fracture.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::symmetry_test {
 namespace {
 
 /// Water, two rocks and void with a wall of void, all drawn.
@@ -110,4 +110,4 @@ TEST(Symmetry, ShotsTogetherGiveTheSumOfTheirTraces) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::symmetry_test

@@ -6,7 +6,7 @@
 #include "any_stiffness.hpp"
 #include "lab.hpp"
 
-namespace slipwave {
+namespace slipwave::anisotropy_test {
 namespace {
 
 template <class Real>
@@ -129,4 +129,4 @@ TEST(EnergyOfAnisotropicRock, BetweenFreeEdgesFallsOverThousandsOfSteps) {
       }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::anisotropy_test

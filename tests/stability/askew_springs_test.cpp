@@ -11,7 +11,7 @@
 #include "media.hpp"
 #include "slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::askew_springs_test {
 namespace {
 
 constexpr double usual_mu = 1e10;
@@ -204,4 +204,4 @@ TEST(SoftBlocks, LoseMotionAtAllOrders) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::askew_springs_test

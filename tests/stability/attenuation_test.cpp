@@ -9,7 +9,7 @@
 #include "rock/bulk_part.hpp"
 #include "solver/effect/attenuation.hpp"
 
-namespace slipwave {
+namespace slipwave::attenuation_test {
 namespace {
 
 using solver::FieldRows;
@@ -318,4 +318,4 @@ TEST(Attenuation, OnlyTakesEnergyFromMediaOfAnyQ) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::attenuation_test

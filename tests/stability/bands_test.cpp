@@ -11,7 +11,7 @@
 #include "lab.hpp"
 #include "solver/banded_shot.hpp"
 
-namespace slipwave {
+namespace slipwave::bands_test {
 namespace {
 
 constexpr int box_cells = 96, face_row = 48;
@@ -163,4 +163,4 @@ INSTANTIATE_TEST_SUITE_P(Hard, Bands, testing::ValuesIn(banded_grounds()),
                          [](const auto& ground) { return ground.param.name; });
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::bands_test

@@ -11,7 +11,7 @@
 
 #include "lab.hpp"
 
-namespace slipwave {
+namespace slipwave::boxes_test {
 namespace {
 
 enum class Neighbour { none, water, water_beside, softer, softer_beside, void_in_a_corner };
@@ -167,4 +167,4 @@ TEST(Boxes, OfAnySizeBesideAnythingNeverGain) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::boxes_test

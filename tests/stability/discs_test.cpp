@@ -13,7 +13,7 @@
 #include "solver/simulation.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave {
+namespace slipwave::discs_test {
 namespace {
 
 /// Waves of random values in a box with discs in it.
@@ -160,4 +160,4 @@ TEST(Discs, NeverAddEnergyHoweverStiffOrSoft) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::discs_test

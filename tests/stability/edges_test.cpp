@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lab.hpp"
 
-namespace slipwave {
+namespace slipwave::edges_test {
 namespace {
 
 class AbsorbingEdges : public ::testing::TestWithParam<std::string> {
@@ -80,4 +80,4 @@ TEST(Sponge, LetTheWaveFieldLeave) {
   EXPECT_LT(lab.energy(), 2e-2 * begin);
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::edges_test

@@ -7,7 +7,7 @@
 #include "fitted_lab.hpp"
 #include "media.hpp"
 
-namespace slipwave {
+namespace slipwave::fitted_anisotropic_cube_test {
 namespace {
 
 constexpr double h = 5;
@@ -160,4 +160,4 @@ INSTANTIATE_TEST_SUITE_P(HardMedia, FittedAnisotropyInSpace,
                          });
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fitted_anisotropic_cube_test

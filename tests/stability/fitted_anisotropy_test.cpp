@@ -7,7 +7,7 @@
 #include "fitted_lab.hpp"
 #include "media.hpp"
 
-namespace slipwave {
+namespace slipwave::fitted_anisotropy_test {
 namespace {
 
 constexpr double h = 5;
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(HardMedia, FittedAnisotropy,
                          [](const auto& info) { return kinds(20, 44)[std::size_t(info.param)].name; });
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fitted_anisotropy_test

@@ -7,7 +7,7 @@
 
 #include "fitted_lab.hpp"
 
-namespace slipwave {
+namespace slipwave::fitted_test {
 namespace {
 
 constexpr double h = 5;
@@ -163,4 +163,4 @@ INSTANTIATE_TEST_SUITE_P(HardMedia, FittedPml, ::testing::ValuesIn(share_of(fitt
                          [](const auto& info) { return info.param; });
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fitted_test

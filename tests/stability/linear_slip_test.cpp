@@ -6,7 +6,7 @@
 
 #include "slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::linear_slip_test {
 namespace {
 
 constexpr int cells() { return 16; }
@@ -117,4 +117,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Springs,
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::linear_slip_test

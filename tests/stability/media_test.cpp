@@ -3,7 +3,7 @@
 
 #include "lab.hpp"
 
-namespace slipwave {
+namespace slipwave::media_test {
 namespace {
 
 template <class Real>
@@ -171,4 +171,4 @@ TEST(Energy, NeverRisesOnGridsOfAFewCells) {
     }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::media_test

@@ -5,7 +5,7 @@
 #include "lab.hpp"
 #include "media.hpp"
 
-namespace slipwave {
+namespace slipwave::monotone_test {
 namespace {
 
 template <class Real>
@@ -37,4 +37,4 @@ TEST(EnergyOfMonotoneSweeps, NeverRisesInHardMedia) {
   }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::monotone_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace slipwave {
+namespace slipwave::one_cell_test {
 namespace {
 
 /// How often the error of a rule changes its sign from step to step by more than a hundredth of the strength.
@@ -42,4 +42,4 @@ TEST(SoftSlip, IsMetNearerByTheOrdersThatAreHigher) {
     EXPECT_LT(largest_error(all[rule], all[0]), 0.2 * largest_error(all[1], all[0])) << all[rule].rule;
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::one_cell_test

@@ -12,7 +12,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave {
+namespace slipwave::pml_test {
 namespace {
 
 /// A random wave field in a model inside a PML of few cells: the harder the thinner. The layer itself begins
@@ -143,4 +143,4 @@ TEST_P(Pml, StaysBoundedWithSlippingCellsOnAllSides) {
 INSTANTIATE_TEST_SUITE_P(HardMedia, Pml, ::testing::ValuesIn(share_of(medium_names(), 1)),
                          [](const auto& info) { return info.param; });
 
-}  // namespace slipwave
+}  // namespace slipwave::pml_test

@@ -9,7 +9,7 @@
 #include "slip_cases.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave {
+namespace slipwave::scenes_test {
 namespace {
 
 /// Draws of one scene.
@@ -377,4 +377,4 @@ TEST(RandomScenes, OfPlanesThatGiveWayStopGrowingToo) {
   }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::scenes_test

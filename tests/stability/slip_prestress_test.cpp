@@ -16,7 +16,7 @@
 
 #include "slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::slip_prestress_test {
 namespace {
 
 constexpr int cells() { return 16; }
@@ -165,4 +165,4 @@ TEST(StaticStress, AtTheVergeLeavesRockAtRestAlone) {
       }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::slip_prestress_test

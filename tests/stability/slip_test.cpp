@@ -9,7 +9,7 @@
 
 #include "slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::slip_test {
 namespace {
 
 constexpr int cells() { return 18; }
@@ -291,4 +291,4 @@ TEST(FrictionlessSlip, TakesEnergyOutOfTheWaves) {
     EXPECT_LT(left(correction, true), 0.9 * left(correction, false));
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::slip_test

@@ -9,7 +9,7 @@
 #include "model/split_faces.hpp"
 #include "slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::split_faces_test {
 namespace {
 
 constexpr int cells() { return 28; }
@@ -212,4 +212,4 @@ INSTANTIATE_TEST_SUITE_P(Media, SplitFaces, ::testing::ValuesIn(media),
                          [](const auto& info) { return info.param; });
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::split_faces_test

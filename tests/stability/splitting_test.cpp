@@ -5,7 +5,7 @@
 
 #include "lab.hpp"
 
-namespace slipwave {
+namespace slipwave::splitting_test {
 namespace {
 
 class FourthOrderInTime : public ::testing::TestWithParam<std::string> {
@@ -114,4 +114,4 @@ TEST(Energy, NeverRisesUnderACrustOfOneCellAtSmallSteps) {
   }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::splitting_test

@@ -11,7 +11,7 @@
 #include "lab.hpp"
 #include "rock/tilted_mean.hpp"
 
-namespace slipwave {
+namespace slipwave::tilted_test {
 namespace {
 
 template <class Real>
@@ -176,4 +176,4 @@ TEST(EnergyOfTiltedRock, NeverRisesWhateverItIs) {
       }
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::tilted_test

@@ -14,7 +14,7 @@
 #include "solver/simulation.hpp"
 
 // Small, but cut into many pieces: a band of the pipeline has some 50 rows.
-namespace slipwave::solver {
+namespace slipwave::solver::threads_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
@@ -169,4 +169,4 @@ TEST(Threads, TakeEveryPieceOnceAndInOrder) {
   EXPECT_EQ(taken, std::vector<int>(1000, 1));
 }
 
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::threads_test

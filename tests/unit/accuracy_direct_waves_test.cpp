@@ -6,7 +6,7 @@
 #include "build/resample.hpp"
 #include "geology/layers.hpp"
 
-namespace slipwave {
+namespace slipwave::accuracy_direct_waves_test {
 namespace {
 
 /// Rock of one kind in cells of 10 m.
@@ -44,4 +44,4 @@ TEST(DirectWaves, AreThoseThatArriveAndFallWithTheSizeOfCells) {
   EXPECT_FALSE(DirectWaves<2>(scene).error(discretisation_of(scene)).p);
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::accuracy_direct_waves_test

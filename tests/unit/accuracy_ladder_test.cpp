@@ -12,7 +12,7 @@
 #include "planning/plan.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave {
+namespace slipwave::accuracy_ladder_test {
 namespace {
 
 /// A trace of each component, of these samples.
@@ -270,4 +270,4 @@ TEST(RepresentativeShots, AreThoseThatDifferMost) {
   EXPECT_EQ(representative_shots(survey), (std::vector<std::size_t>{1}));
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::accuracy_ladder_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace slipwave {
+namespace slipwave::accuracy_sizes_test {
 namespace {
 
 /// A trace that is exact but for errors of two orders.
@@ -104,4 +104,4 @@ TEST(OrderOfSizes, StaysWithinItsBounds) {
   EXPECT_NEAR(order_of_sizes(std::pow(1.5, 1.4) - 1, std::pow(2.25, 1.4) - 1, 1.5, 2.25), 1.4, 1e-6);
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::accuracy_sizes_test

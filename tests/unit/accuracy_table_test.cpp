@@ -11,7 +11,7 @@
 #include "io/netcdf_file.hpp"
 #include "model_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::accuracy_table_test {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -284,4 +284,4 @@ TEST(TextOfATable, SaysWhenNoneIsGoodEnoughAndNothingWhenNobodyAsked) {
   EXPECT_EQ(text_of(table).find("at most"), std::string::npos);
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::accuracy_table_test

@@ -6,8 +6,7 @@
 #include "acquisition/fibre.hpp"
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::acquisition_fibre_test {
 namespace {
 
 /// The strain rate of a gauge where velocities are linear: gradient G, v = G x.
@@ -86,3 +85,5 @@ TEST(Fibre, OfAPathNeedsReceiversApart) {
   EXPECT_THROW(parse_fibre<2>("das:path:0"), Error);
   EXPECT_THROW(parse_fibre<2>("das:path"), Error);
 }
+
+}  // namespace slipwave::acquisition_fibre_test

@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "io/table.hpp"
 
-namespace slipwave {
+namespace slipwave::acquisition_given_test {
 namespace {
 
 std::string refusal(const std::function<void()>& act) {
@@ -265,4 +265,4 @@ TEST(Sps, WhatIsWrongIsNamedByColumns) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::acquisition_given_test

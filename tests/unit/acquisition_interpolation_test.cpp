@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-namespace slipwave {
+namespace slipwave::acquisition_interpolation_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -373,4 +373,4 @@ TEST(TimeWeights, DifferentiateAndIntegratePolynomialsOfDegreeSeven) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::acquisition_interpolation_test

@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 
-namespace slipwave {
+namespace slipwave::acquisition_source_kind_test {
 namespace {
 
 template <int D>
@@ -104,4 +104,4 @@ TEST(SourceKinds, AreIsotropicWhereAllDirectionsAreAlike) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::acquisition_source_kind_test

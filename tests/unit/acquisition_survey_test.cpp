@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 
-namespace slipwave {
+namespace slipwave::acquisition_survey_test {
 namespace {
 
 template <int D>
@@ -124,4 +124,4 @@ TEST(Survey, MustLieInTheModel) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::acquisition_survey_test

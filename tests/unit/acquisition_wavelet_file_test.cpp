@@ -11,7 +11,7 @@
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
 
-namespace slipwave {
+namespace slipwave::acquisition_wavelet_file_test {
 namespace {
 
 class WaveletFile : public testing::Test {
@@ -187,4 +187,4 @@ TEST_F(WaveletFile, MayHaveAHeaderThatNamesTheUnitOfTime) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::acquisition_wavelet_file_test

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/fft.hpp"
 
-namespace slipwave {
+namespace slipwave::acquisition_wavelet_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -147,4 +147,4 @@ TEST(ParseWavelet, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::acquisition_wavelet_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace slipwave;
+namespace slipwave::base_error_test {
 
 TEST(Error, CarriesThePlaceInFrontAndKeepsItsKind) {
   try {
@@ -42,3 +42,5 @@ TEST(Error, NeverDrivesATerminal) {
             "del \xe2\x82\xac");
   EXPECT_EQ(printable("\x89HDF\xff"), "?HDF?");
 }
+
+}  // namespace slipwave::base_error_test

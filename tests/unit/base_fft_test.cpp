@@ -9,8 +9,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_fft_test {
 namespace {
 
 std::vector<double> noise(std::size_t count) {
@@ -98,3 +97,5 @@ TEST(RealTransform2, RefusesWhatTheMachineHasNoMemoryFor) {
         << error.what();
   }
 }
+
+}  // namespace slipwave::base_fft_test

@@ -3,8 +3,7 @@
 
 #include "base/history.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_history_test {
 namespace {
 
 std::string history_of(std::initializer_list<const char*> commands) {
@@ -33,3 +32,5 @@ TEST(History, IsAPipeFromTheLastCommandThatReadsNoOther) {
   EXPECT_EQ(pipeline_of("sw-shoot --time 1\nsw-diff a.sgy b.sgy"), "sw-diff a.sgy b.sgy");
   EXPECT_EQ(pipeline_of(""), "");
 }
+
+}  // namespace slipwave::base_history_test

@@ -12,8 +12,7 @@
 #include "base/error.hpp"
 #include "io/netcdf_container.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_netcdf_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -216,3 +215,5 @@ TEST(NetcdfContainer, RefusesLengthsThatWouldWrapRound) {
   };
   EXPECT_THROW(check_not_truncated(read_at, header.size()), Error);
 }
+
+}  // namespace slipwave::base_netcdf_file_test

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 
-namespace slipwave {
+namespace slipwave::base_netcdf_probe_test {
 namespace {
 
 constexpr int cannot_open = -1;
@@ -102,4 +102,4 @@ TEST(NetcdfProbe, GivesTheLibraryLittleMemory) {
   EXPECT_LE(*taken, most);
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::base_netcdf_probe_test

@@ -15,8 +15,7 @@
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -253,3 +252,5 @@ TEST_F(OutputFileTest, KnowsItsInputsByWhateverName) {
   EXPECT_NO_THROW(expect_other_files("-", {"-"}));
   EXPECT_NO_THROW(expect_other_files("/dev/null", {"/dev/null"}));
 }
+
+}  // namespace slipwave::base_output_file_test

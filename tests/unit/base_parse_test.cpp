@@ -7,8 +7,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_parse_test {
 namespace {
 
 /// The sentence of the usage Error that `body` throws.
@@ -126,3 +125,5 @@ TEST(Parse, ReadsSizesAndShapes) {
   EXPECT_EQ(refusal([] { parse_shape<2>("500x17.4"); }),
             "found '500x17.4', expected whole numbers NXxNZ above zero");
 }
+
+}  // namespace slipwave::base_parse_test

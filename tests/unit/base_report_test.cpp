@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-using namespace slipwave;
+namespace slipwave::base_report_test {
 
 TEST(Report, AlignsItsLines) {
   Report report;
@@ -43,3 +43,5 @@ TEST(Report, MakesUtf8OfAnyBytes) {
   EXPECT_EQ(json_string("\xe4"), "\"\xc3\xa4\"");              // ISO 8859-1
   EXPECT_EQ(json_string("\xc0\xaf"), "\"\xc3\x80\xc2\xaf\"");  // an overlong form is no UTF-8
 }
+
+}  // namespace slipwave::base_report_test

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace slipwave {
+namespace slipwave::base_small_matrix_test {
 namespace {
 
 /// A matrix of random numbers and, of it, one that is symmetric and positive.
@@ -96,4 +96,4 @@ TEST(SmallMatrix, IsPositiveWhereAllEigenvaluesAre) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::base_small_matrix_test

@@ -5,8 +5,7 @@
 
 #include "refusal.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_table_test {
 namespace {
 
 /// The numbers of the columns x and delay in the first row, x in m and the delay in s.
@@ -39,3 +38,5 @@ TEST(Table, RefusesUnitsAndNumbersThatAreSomethingElse) {
             "t: line 1: found '1,5', expected a name, or a number with a decimal point");
   EXPECT_EQ(said("x;delay\n1,5;2\n"), "t: line 2: column x: found '1,5', expected a number");
 }
+
+}  // namespace slipwave::base_table_test

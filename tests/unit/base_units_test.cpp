@@ -5,8 +5,7 @@
 
 #include "refusal.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::base_units_test {
 namespace {
 
 double made(double value, const std::string& unit, const std::string& into) {
@@ -65,3 +64,5 @@ TEST(Units, OfTablesAndLogsMayBeSpeltAsTheyAreThere) {
   EXPECT_EQ(spelt(10, "M", "m"), 10);
   EXPECT_EQ(spelt(1000, "MS", "s"), 1);
 }
+
+}  // namespace slipwave::base_units_test

@@ -6,7 +6,7 @@
 
 #include "checkpoint/identity.hpp"
 
-namespace slipwave {
+namespace slipwave::checkpoint_identity_test {
 namespace {
 
 Scene<2> scene() {
@@ -117,4 +117,4 @@ TEST(Identity, LooksIntoTheFileOfAWavelet) {
   EXPECT_EQ(difference_of(identity_of(one), identity_of(other)), "another source or wavelet");
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::checkpoint_identity_test

@@ -11,7 +11,7 @@
 #include "checkpoint/run_state.hpp"
 #include "refusal.hpp"
 
-namespace slipwave {
+namespace slipwave::checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -290,4 +290,4 @@ TEST_F(CheckpointFile, OfALogOfSnapshotsCutsItBack) {
             path() + ": found 40 bytes, expected the 64 of which the checkpoint knows");
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::checkpoint_test

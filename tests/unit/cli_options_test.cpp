@@ -5,6 +5,8 @@
 #include "cli/parser.hpp"
 #include "cli/tool.hpp"
 
+namespace slipwave::cli_options_test {
+
 using namespace slipwave::cli;
 
 namespace {
@@ -107,3 +109,5 @@ TEST(Options, TheNearestNameIsTheOneMeant) {
   EXPECT_EQ(slipwave::nearest_of(names, "recievrs"), "receivers");
   EXPECT_EQ(slipwave::nearest_of(names, "polarisation"), "");
 }
+
+}  // namespace slipwave::cli_options_test

@@ -3,7 +3,7 @@
 
 #include "cli/progress_bar.hpp"
 
-namespace slipwave::cli {
+namespace slipwave::cli::cli_progress_test {
 namespace {
 
 TEST(Progress, TheRateHasItsUnitAndIsThatOfThisRun) {
@@ -29,4 +29,4 @@ TEST(Progress, TimesReadAsAPersonSaysThem) {
 }
 
 }  // namespace
-}  // namespace slipwave::cli
+}  // namespace slipwave::cli::cli_progress_test

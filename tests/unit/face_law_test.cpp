@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace slipwave {
+namespace slipwave::face_law_test {
 namespace {
 
 constexpr int small_steps = 10000;
@@ -314,4 +314,4 @@ TEST(PartingFace, CarriesPressureAndNoTension) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::face_law_test

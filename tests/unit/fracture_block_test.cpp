@@ -6,7 +6,7 @@
 
 #include "fracture_slip_cell.hpp"
 
-namespace slipwave {
+namespace slipwave::fracture_block_test {
 namespace {
 
 template <class Real>
@@ -275,4 +275,4 @@ TEST(Gap, PartsPlanesUnderTensionAndRemembersHowFar) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fracture_block_test

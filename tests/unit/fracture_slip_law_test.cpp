@@ -2,7 +2,7 @@
 // What the slip corrections must hold whatever the numbers: symmetry, invariance, energy.
 #include "fracture_slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::fracture_slip_law_test {
 namespace {
 
 TYPED_TEST_SUITE(SlipLaw, SlipCases);
@@ -161,4 +161,4 @@ TYPED_TEST(SlipLaw, NeverAddsEnergy) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fracture_slip_law_test

@@ -2,7 +2,7 @@
 // Slip at the ends of the range of its constants: dry, rigid, open, absurd.
 #include "fracture_slip_cases.hpp"
 
-namespace slipwave {
+namespace slipwave::fracture_slip_limits_test {
 namespace {
 
 template <class Case>
@@ -113,4 +113,4 @@ TEST(SecondOrderSlip, DoesNotRingWhereTheStepIsMuchLongerThanTheRelaxation) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fracture_slip_limits_test

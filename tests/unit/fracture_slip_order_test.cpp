@@ -10,7 +10,7 @@
 
 #include "fracture_slip_cell.hpp"
 
-namespace slipwave {
+namespace slipwave::fracture_slip_order_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -253,4 +253,4 @@ TEST(Slip, IsTheSameIn3D) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fracture_slip_order_test

@@ -6,7 +6,7 @@
 #include "fracture_slip_cases.hpp"
 #include "model/fracture.hpp"
 
-namespace slipwave {
+namespace slipwave::fracture_weakening_test {
 namespace {
 
 template <class Case>
@@ -310,4 +310,4 @@ TEST(SlipWeakening, OfCrossingPlanesOverAnEndlessDistanceIsCoulombToTheBit) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::fracture_weakening_test

@@ -10,8 +10,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_comparison_test {
 namespace {
 
 const SampleAxis axis{400, 0.004, 0};
@@ -89,3 +88,5 @@ TEST(Comparison, SaysWhatAZeroTraceMeans) {
   EXPECT_EQ(comparison.add(zero, pulse(0.5)).relative_l2, 1);
   EXPECT_THROW(comparison.add(std::vector<double>(399), zero), Error);
 }
+
+}  // namespace slipwave::gather_comparison_test

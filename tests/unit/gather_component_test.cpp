@@ -7,7 +7,7 @@
 
 #include "base/parse.hpp"
 
-namespace slipwave {
+namespace slipwave::gather_component_test {
 namespace {
 
 TEST(Components, AreFoundByTheirNamesAndHaveTraceCodesOfTheirOwn) {
@@ -48,4 +48,4 @@ TEST(Components, HaveUnitsAsNetcdfWantsThem) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::gather_component_test

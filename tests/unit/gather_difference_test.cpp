@@ -7,8 +7,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_difference_test {
 namespace {
 
 Gather small_gather() {
@@ -77,3 +76,5 @@ TEST(Component, HasANameAUnitAndAWayBack) {
   EXPECT_STREQ(unit_of(Component::other), "");
   EXPECT_THROW(component_named("pressure"), Error);
 }
+
+}  // namespace slipwave::gather_difference_test

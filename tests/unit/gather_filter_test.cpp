@@ -11,8 +11,7 @@
 #include "gather/convolution.hpp"
 #include "gather/trace_filter.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_filter_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -210,3 +209,5 @@ TEST(TraceFilter, NamesTheSampleThatIsNoNumber) {
   std::vector<double> shorter(699);
   EXPECT_THROW(filter.apply(shorter, 0), Error);
 }
+
+}  // namespace slipwave::gather_filter_test

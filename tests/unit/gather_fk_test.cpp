@@ -11,8 +11,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_fk_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -185,3 +184,5 @@ TEST(FkSpectra, RefuseWhatIsNoEvenLine) {
   EXPECT_EQ(refusal({{1, 0}, {1, 10}, {2, 0}, {2, 10}, {1, 20}}),
             "shot 1 comes again after another one, expected its traces together (sw-sort --key shot)");
 }
+
+}  // namespace slipwave::gather_fk_test

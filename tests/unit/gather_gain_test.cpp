@@ -11,8 +11,7 @@
 #include "base/error.hpp"
 #include "gather/taper.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_gain_test {
 namespace {
 
 const SampleAxis axis{501, 0.002, -0.1};
@@ -138,3 +137,5 @@ TEST(Taper, IsOneLengthOrTwo) {
   for (const char* text : {"", "-0.1", "0.1,-1", "1,2,3", "a"})
     EXPECT_THROW(parse_taper(text), Error) << text;
 }
+
+}  // namespace slipwave::gather_gain_test

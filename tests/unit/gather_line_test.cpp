@@ -12,8 +12,7 @@
 #include "gather/velocity_filter.hpp"
 #include "refusal.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_line_test {
 namespace {
 
 const SampleAxis axis{400, 0.002, 0};
@@ -173,3 +172,5 @@ TEST(NrmsOverTime, IsThatOfTheSamplesRoundEachOne) {
   a[99] = 3, b = a, b[99] = -3;
   EXPECT_EQ(nrms_over_time(a, b, 0)[99], 200) << "quiet samples beside loud ones";
 }
+
+}  // namespace slipwave::gather_line_test

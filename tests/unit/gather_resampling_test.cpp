@@ -9,8 +9,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_resampling_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -106,3 +105,5 @@ TEST(Resampling, RefusesIntervalsThatAreNone) {
   EXPECT_THROW(Resampling({60000, 0.001, 0}, 1e-12), Error);
   EXPECT_THROW(Resampling({100, 0.001, 0}, 0.002).of(std::vector<double>(99)), Error);
 }
+
+}  // namespace slipwave::gather_resampling_test

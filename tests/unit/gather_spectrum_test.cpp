@@ -15,8 +15,7 @@
 #include "io/netcdf_file.hpp"
 #include "segy_shared.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::gather_spectrum_test {
 namespace {
 
 constexpr double dt_s = 0.002;
@@ -148,3 +147,5 @@ TEST(SpectrumNetcdf, HoldsEveryTraceInOrder) {
     EXPECT_EQ(x_m[trace], 2.5 * double(trace));
   }
 }
+
+}  // namespace slipwave::gather_spectrum_test

@@ -7,7 +7,7 @@
 #include "grid/slice.hpp"
 #include "refusal.hpp"
 
-namespace slipwave {
+namespace slipwave::grid_true_depth_test {
 namespace {
 
 /// 20 x 30 cells of 10 m under a surface that falls from 20 to 60 m, down to 300 m.
@@ -132,4 +132,4 @@ TEST(FittedSlice, LevelOnesTakeTheCellsAtTheirDepth) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::grid_true_depth_test

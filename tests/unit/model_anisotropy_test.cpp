@@ -21,7 +21,7 @@
 #include "rock/relations.hpp"
 #include "scene/anisotropy_check.hpp"
 
-namespace slipwave {
+namespace slipwave::model_anisotropy_test {
 namespace {
 
 const Material shale{3000, 1600, 2300, 0.2, 0.1}, crossed{3200, 1700, 2400, -0.05, 0.2},
@@ -495,4 +495,4 @@ TEST(ModelCheck, RefusesAnisotropyInSpaceThatNoRockHas) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::model_anisotropy_test

@@ -14,7 +14,7 @@
 #include "rock/relations.hpp"
 #include "rock/tilted_mean.hpp"
 
-namespace slipwave {
+namespace slipwave::model_attenuation_test {
 namespace {
 
 constexpr double peak_hz = 20, infinite = PropertyRow::infinite;
@@ -404,4 +404,4 @@ TEST(ModelCheck, KnowsWhereQualityFactorsMayBe) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::model_attenuation_test

@@ -7,8 +7,7 @@
 #include "model_cases.hpp"
 #include "rock/cut_cell.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_averaging_test {
 namespace {
 
 const Material soft{2500, 1200, 2000}, hard{4500, 2250, 2500}, water{1500, 0, 1000}, air{};
@@ -216,3 +215,5 @@ TEST(Layers, AreNeverAveragedAcrossAFluidSolidInterface) {
     EXPECT_EQ(mean.rho[cell], centre.rho[cell]);
   }
 }
+
+}  // namespace slipwave::model_averaging_test

@@ -10,7 +10,7 @@
 #include "model_cases.hpp"
 #include "rock/relations.hpp"
 
-using namespace slipwave;
+namespace slipwave::model_build_test {
 
 TEST(Layers, CellCentresDecide) {
   // Tops at 0 and 12: of the centres 5, 15, 25 the last two lie in the second layer.
@@ -219,3 +219,5 @@ TEST(Relations, FollowTheirFormulas) {
   EXPECT_EQ(rho[3], 0);
   EXPECT_EQ(vs_by_castagna(vp, 3000)[1], 0);
 }
+
+}  // namespace slipwave::model_build_test

@@ -4,8 +4,7 @@
 
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_check_test {
 namespace {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
@@ -155,3 +154,5 @@ TEST(ModelCheck, RefusesUnphysicalSlipConstants) {
             }),
             "fracture set 1 'set' has 0 slip systems, expected 1 to 2");
 }
+
+}  // namespace slipwave::model_check_test

@@ -10,8 +10,7 @@
 #include "model/model_netcdf.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -302,3 +301,5 @@ TEST_F(ModelFile, ForeignSectionsComeInWithTheirUnitsAndDirections) {
             }).find("found a step of 20 m"),
             std::string::npos);
 }
+
+}  // namespace slipwave::model_file_test

@@ -14,8 +14,7 @@
 #include "model/model_report.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_fit_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,3 +193,5 @@ TEST_F(FittedModelFile, IsNotImportedAsIfItWereRegular) {
                 ": vp: found rows that follow horizons (depth_bounds), expected a regular grid; build the "
                 "model with --fit none");
 }
+
+}  // namespace slipwave::model_fit_file_test

@@ -11,8 +11,7 @@
 #include "model/prestress.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_fit_test {
 namespace {
 
 const FitChoice as_usual;
@@ -383,3 +382,5 @@ TEST(Fit, OfAnyPileIsAGridThatFollowsWhatItSays) {
   }
   EXPECT_GT(fitted, 250);
 }
+
+}  // namespace slipwave::model_fit_test

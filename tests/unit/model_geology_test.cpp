@@ -11,8 +11,7 @@
 #include "model/model_netcdf.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_geology_test {
 namespace {
 
 /// As sw-layers makes it.
@@ -336,3 +335,5 @@ TEST(CellsOfSize, FollowHorizonsThatAreOnlyInTheCells) {
   for (std::int64_t n = 0; n < found.grid().size(); ++n)
     ASSERT_EQ(found.medium.is_fluid(std::size_t(n)), found.grid().index(n)[1] < floor) << n;
 }
+
+}  // namespace slipwave::model_geology_test

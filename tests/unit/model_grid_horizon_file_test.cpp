@@ -6,8 +6,7 @@
 #include "io/netcdf_file.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_grid_horizon_file_test {
 namespace {
 
 /// A netCDF file of a surface of 3 x 2 nodes, laid out as a COARDS grid of GMT unless changed.
@@ -140,3 +139,5 @@ TEST(GridHorizonFile, SaysWhatIsWrong) {
   thin.depths.resize(3);
   EXPECT_EQ(refused(thin), "z: found 3 different x and 1 different y, expected at least 2 of each");
 }
+
+}  // namespace slipwave::model_grid_horizon_file_test

@@ -10,8 +10,7 @@
 #include "io/netcdf_file.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_grid_horizon_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -290,3 +289,5 @@ TEST(GridHorizon, SaysWhereItCutsLayersOff) {
       "the layer at @" + high.path() +
           " lies above the one before it, at 150 m, all along the model; expected them from the top down");
 }
+
+}  // namespace slipwave::model_grid_horizon_test

@@ -8,8 +8,7 @@
 #include "geology/layers.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_horizon_test {
 namespace {
 
 constexpr double pi = 3.141592653589793;
@@ -222,3 +221,5 @@ TEST(Horizon, TakesPointsBelowAHeaderInItsUnits) {
             }).find("line 1: found column 'velocity', expected x and z, depth or elevation, each once"),
             std::string::npos);
 }
+
+}  // namespace slipwave::model_horizon_test

@@ -7,8 +7,7 @@
 #include "io/netcdf_file.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_import_axis_test {
 namespace {
 
 using Attributes = std::map<std::string, std::string>;
@@ -180,3 +179,5 @@ TEST_F(ImportedAxis, CalledDepthAllBelowZeroSaysTooLittle) {
       "25 m deep) or down: ncatted -a positive,z,c,c,up FILE");
   EXPECT_EQ(said("z", {-10, 0, 10}, {{"standard_name", "depth"}}), "no error");
 }
+
+}  // namespace slipwave::model_import_axis_test

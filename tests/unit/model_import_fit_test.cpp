@@ -8,8 +8,7 @@
 #include "geology/layers.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_import_fit_test {
 namespace {
 
 /// A staircase model of layers.
@@ -114,3 +113,5 @@ TEST(ImportFit, IsExtrudedWithItsRows) {
   EXPECT_NEAR(deep.grid().depth({7, 3, 41}), fit.model.grid().depth({7, 41}), 1e-9);
   EXPECT_EQ(deep.vp({7, 3, 41}), fit.model.medium.vp({7, 41}));
 }
+
+}  // namespace slipwave::model_import_fit_test

@@ -14,7 +14,7 @@
 #include "geology/marmousi.hpp"
 #include "io/input_bytes.hpp"
 
-using namespace slipwave;
+namespace slipwave::model_likeness_test {
 
 // The real Marmousi-II and models of sw-marmousi, measured alike. The tables of docs/marmousi.md are what
 // these tests print.
@@ -200,3 +200,5 @@ TEST_F(MarmousiLikeness, IsOfSpeedsDensitiesAndLengthsButNotOfPlaces) {
   for (std::size_t a = 0; a < drawn_.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) EXPECT_LT(resemblance(drawn_[a].vp, drawn_[b].vp), 0.5) << a << b;
 }
+
+}  // namespace slipwave::model_likeness_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-using namespace slipwave;
-
+namespace slipwave::model_lithology_test {
 namespace {
 
 double bulk_of(const Material& m) { return m.rho * (m.vp * m.vp - 4. / 3 * m.vs * m.vs); }
@@ -79,3 +78,5 @@ TEST(FluidSubstitution, LowersVpAndVpOverVsFromBrineToOilToGas) {
   EXPECT_NEAR(shear_of(with_gas), shear_of(sand), 1e-3);
   EXPECT_LT(bulk_of(with_gas), bulk_of(with_oil));
 }
+
+}  // namespace slipwave::model_lithology_test

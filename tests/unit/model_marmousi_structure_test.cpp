@@ -7,7 +7,8 @@
 
 #include "geology/marmousi_strata.hpp"
 
-using namespace slipwave;
+namespace slipwave::model_marmousi_structure_test {
+
 using namespace slipwave::marmousi;
 
 namespace {
@@ -161,3 +162,5 @@ TEST(Beds, HaveSpeedsThatGrowDownwardsWithinThem) {
   }
   EXPECT_GT(grown, 5000);
 }
+
+}  // namespace slipwave::model_marmousi_structure_test

@@ -9,8 +9,7 @@
 #include "model_cases.hpp"
 #include "parallel/threads.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_marmousi_test {
 namespace {
 
 Medium<2> medium_of(double length_m, double depth_m, double spacing_m, std::uint64_t seed = 1,
@@ -150,3 +149,5 @@ TEST(Marmousi, RefusesSettingsWithoutSense) {
   EXPECT_EQ(sentence_of([&] { marmousi_medium(grid, settings); }),
             "found a vp/vs of 1.2, expected at least sqrt(2)");
 }
+
+}  // namespace slipwave::model_marmousi_test

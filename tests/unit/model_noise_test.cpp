@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-using namespace slipwave;
-
+namespace slipwave::model_noise_test {
 namespace {
 
 /// splitmix64 as published, with its state.
@@ -82,3 +81,5 @@ TEST(SmoothStep, LeadsFromZeroToOneEitherWay) {
   EXPECT_EQ(smooth_step(4, 2, 5), 0);
   EXPECT_EQ(smooth_step(4, 2, 1), 1);
 }
+
+}  // namespace slipwave::model_noise_test

@@ -11,8 +11,7 @@
 #include "model/fracture.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_prestress_test {
 namespace {
 
 /// Water above rock, one set of planes in all of the rock.
@@ -170,3 +169,5 @@ TEST(ModelEffect, OfPlanesThatNoWaveMovesIsLeftOut) {
   EXPECT_TRUE(left_of({{half, -half}, 0.1, 0, 1e12, true})) << "planes that part";
   EXPECT_TRUE(left_of({{half, -half}, 0.1, 0, 1e6}));
 }
+
+}  // namespace slipwave::model_prestress_test

@@ -3,8 +3,7 @@
 #include "geology/layers.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_refit_test {
 namespace {
 
 template <int D>
@@ -92,3 +91,5 @@ TEST(Refit, RefusesRowsWithoutHorizons) {
   EXPECT_EQ(sentence_of([&] { resampled(water_over_rock(grid, 1), 2.5); }),
             "found rows that follow horizons, expected a regular grid");
 }
+
+}  // namespace slipwave::model_refit_test

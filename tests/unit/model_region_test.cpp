@@ -5,8 +5,7 @@
 
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_region_test {
 namespace {
 
 /// Area of a region, by counting points `step_m` apart in twice its bounds; every point inside must lie
@@ -165,3 +164,5 @@ TEST(Scatter, GivesUpWhereARegionIsNextToNothing) {
             }),
             "found no place for a slab in the region, expected it to fill more of its bounds");
 }
+
+}  // namespace slipwave::model_region_test

@@ -4,8 +4,7 @@
 #include "build/resample.hpp"
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_regrid_test {
 namespace {
 
 /// Every cell of another rock, water in between, the last row void, two fracture codes.
@@ -171,3 +170,5 @@ TEST(Regrid, RefusesAStepThatDoesNotDivide) {
   EXPECT_EQ(sentence_of([] { regridded(water_over_rock(grid_of(10, 8, 20), 1), 3.0); }),
             "200 m are 66.667 steps of 3 m, expected a whole number");
 }
+
+}  // namespace slipwave::model_regrid_test

@@ -6,8 +6,7 @@
 
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_resample_test {
 namespace {
 
 /// vp a linear function of place in rock under two rows of water.
@@ -143,3 +142,5 @@ TEST(Crop, RefusesABoxOutsideTheModelOrBetweenCentres) {
             }),
             "the box holds no cell centre, expected at least one");
 }
+
+}  // namespace slipwave::model_resample_test

@@ -10,7 +10,7 @@
 #include "rock/anisotropy.hpp"
 #include "rock/stiffness_input.hpp"
 
-namespace slipwave {
+namespace slipwave::model_stiffness_test {
 namespace {
 
 GivenStiffness of_plane(double c11, double c13, double c33, double c55) {
@@ -411,4 +411,4 @@ TEST(MediumOfStiffness, HasElasticConstantsOnlyWhereNoParametersSayIt) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::model_stiffness_test

@@ -10,7 +10,7 @@
 #include "model_cases.hpp"
 #include "refusal.hpp"
 
-namespace slipwave {
+namespace slipwave::model_tilted_mean_test {
 namespace {
 
 const Material soft{2000, 1150, 2000}, hard{4000, 2300, 2300};
@@ -155,4 +155,4 @@ TEST(TiltedMean, IsRefusedWhereNoneCanBe) {
             std::string::npos);
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::model_tilted_mean_test

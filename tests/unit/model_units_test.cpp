@@ -10,8 +10,7 @@
 #include "model_cases.hpp"
 #include "rock/input_units.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_units_test {
 namespace {
 
 /// Depth columns, one after the other, of a section whose beds dip and whose speed grows with depth.
@@ -183,3 +182,5 @@ TEST(RawShape, IsTakenOfWhatHasNoShape) {
     EXPECT_EQ(sentence_of([&] { check_raw_shape(bytes, grid, FastAxis::z); }), "no error") << kind;
   }
 }
+
+}  // namespace slipwave::model_units_test

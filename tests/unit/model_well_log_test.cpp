@@ -5,8 +5,7 @@
 
 #include "model_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::model_well_log_test {
 namespace {
 
 const std::string las_head =
@@ -195,3 +194,5 @@ TEST(WellLog, WithGapsOrWaterIsRefusedWithItsDepth) {
   EXPECT_EQ(sentence_of([&] { layer_of_log(thin_beds(), 5, false, thin); }),
             "found blocks of 2 m, expected at least a cell, 5 m");
 }
+
+}  // namespace slipwave::model_well_log_test

@@ -8,7 +8,7 @@
 
 #include "curvilinear_grid.hpp"
 
-namespace slipwave {
+namespace slipwave::output_derivatives_test {
 namespace {
 
 template <int D>
@@ -122,4 +122,4 @@ TEST(Derivative, ConvergesToTrueDirectionsOnCurvilinearRows) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::output_derivatives_test

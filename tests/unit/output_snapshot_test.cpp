@@ -15,7 +15,7 @@
 #include "output/snapshot_netcdf.hpp"
 #include "output/snapshot_reader.hpp"
 
-namespace slipwave {
+namespace slipwave::output_snapshot_test {
 namespace {
 
 class Snapshots : public testing::Test {
@@ -206,4 +206,4 @@ TEST(SnapshotFields, AreChosenByName) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::output_snapshot_test

@@ -10,7 +10,7 @@
 #include "plot/canvas.hpp"
 #include "plot/ticks.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_axis_test {
 namespace {
 
 /// The number a label shows: true minus signs and raised digits read back.
@@ -158,4 +158,4 @@ TEST(PlotAxis, WidensLogAxesToRoundNumbers) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_axis_test

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "plot/colour_map.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_colour_test {
 namespace {
 
 /// CIE 1976 L*a*b* of an sRGB colour under D65 (IEC 61966-2-1, ISO 11664-4): not the space the maps are made
@@ -134,4 +134,4 @@ TEST(PlotColours, JetIsRefusedWithItsReason) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_colour_test

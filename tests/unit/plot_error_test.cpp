@@ -11,7 +11,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_error_test {
 namespace {
 
 AccuracyRow row_of(int order, double spacing_m, double error, double seconds) {
@@ -110,4 +110,4 @@ TEST(PlotError, SettingsWithoutErrorOrTimeAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_error_test

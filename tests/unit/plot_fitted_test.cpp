@@ -7,7 +7,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_fitted_test {
 namespace {
 
 Grid<2> level(Grid<2> grid) {
@@ -135,4 +135,4 @@ TEST(PlotFitted, NothingIsAboveTheSurface) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_fitted_test

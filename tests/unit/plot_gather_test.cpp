@@ -12,7 +12,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_gather_test {
 namespace {
 
 const ColourMap colours("blue-red");
@@ -433,4 +433,4 @@ TEST(PlotGather, InterpolationIsNotAcrossShots) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_gather_test

@@ -15,7 +15,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_layout_test {
 namespace {
 
 const std::string long_title =
@@ -232,4 +232,4 @@ TEST(PlotLayout, PanelsSideBySideKeepClear) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_layout_test

@@ -13,7 +13,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_model_test {
 namespace {
 
 const Look in_grey{.map = "grey"};
@@ -315,4 +315,4 @@ TEST(PlotModel, PlanesOfAVolumeRunThroughTheSourceOrTheMiddle) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_model_test

@@ -12,7 +12,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_page_test {
 namespace {
 
 std::string refusal_of(const PageSettings& settings, Format format = Format::png) {
@@ -149,4 +149,4 @@ TEST(PlotPage, TextsAreShortenedToTheirRoom) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_page_test

@@ -9,7 +9,7 @@
 #include "plot/magnitudes.hpp"
 #include "plot/raster.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_raster_test {
 namespace {
 
 std::vector<Cells> pixels_over(std::int64_t cells, int pixels) {
@@ -195,4 +195,4 @@ TEST(PlotRaster, InterpolationLeavesWhatHasNoValueItsCells) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_raster_test

@@ -5,7 +5,7 @@
 #include "geology/layers.hpp"
 #include "plot/rock_picture.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_rock_test {
 namespace {
 
 Model<2> rocks() {
@@ -55,4 +55,4 @@ TEST(RockPicture, RefusesPointsWithoutRock) {
   EXPECT_THROW(rock_at<2>(model, {305, 405}), Error);  // outside
 }
 
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_rock_test

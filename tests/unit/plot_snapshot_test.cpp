@@ -13,7 +13,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave {
+namespace slipwave::plot_snapshot_test {
 namespace {
 
 class PlotSnapshot : public testing::Test {
@@ -121,4 +121,4 @@ TEST_F(PlotSnapshot, WhatIsStillShowsTheModelBelow) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::plot_snapshot_test

@@ -16,7 +16,7 @@
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
 
-namespace slipwave::plot {
+namespace slipwave::plot::plot_spectrum_test {
 namespace {
 
 class PlotSpectrum : public testing::Test {
@@ -237,4 +237,4 @@ TEST_F(PlotSpectrum, AWavenumberStandsWhereItBelongsWithItsDecibels) {
 }
 
 }  // namespace
-}  // namespace slipwave::plot
+}  // namespace slipwave::plot::plot_spectrum_test

@@ -6,10 +6,11 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
+namespace slipwave::segy_check_test {
+
 // What is written here is read by somebody else: the checker kept beside the checkout, which parses the bytes
 // with numpy and asks segyio too.
 
-using namespace slipwave;
 using namespace slipwave::segy;
 
 namespace {
@@ -63,3 +64,5 @@ TEST(WrittenGather, IsReadAlikeInEveryFormatAndByteOrder) {
       EXPECT_EQ(check(facts, path), 0) << format.name;
     }
 }
+
+}  // namespace slipwave::segy_check_test

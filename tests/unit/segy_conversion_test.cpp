@@ -12,7 +12,8 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_conversion_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -213,3 +214,5 @@ TEST(Conversion, OfTheCorpusKeepsItsFacts) {
   }
   EXPECT_GE(files, 20);
 }
+
+}  // namespace slipwave::segy_conversion_test

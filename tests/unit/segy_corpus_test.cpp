@@ -8,9 +8,10 @@
 #include "segy/describe.hpp"
 #include "segy_shared.hpp"
 
+namespace slipwave::segy_corpus_test {
+
 // Files other people wrote, and the table of facts that stands in the README beside them.
 
-using namespace slipwave;
 using namespace slipwave::segy;
 
 namespace {
@@ -82,3 +83,5 @@ TEST(Corpus, TimeScalarOfTheDelayIsApplied) {
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the corpus ../shared/data/segy-corpus is not there";
   EXPECT_DOUBLE_EQ(describe(file.string()).axis.start_s, 1);
 }
+
+}  // namespace slipwave::segy_corpus_test

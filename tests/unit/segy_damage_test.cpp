@@ -17,9 +17,10 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
+namespace slipwave::segy_damage_test {
+
 // Damaged input gives an answer or a sentence, in memory bounded by what the input holds.
 
-using namespace slipwave;
 using namespace slipwave::segy;
 
 namespace {
@@ -55,6 +56,9 @@ void released(void* memory) {
 }
 
 }  // namespace
+}  // namespace slipwave::segy_damage_test
+
+using slipwave::segy_damage_test::noted, slipwave::segy_damage_test::released;
 
 void* operator new(std::size_t count) { return noted(count); }
 void* operator new[](std::size_t count) { return noted(count); }
@@ -71,6 +75,7 @@ void operator delete[](void* memory) noexcept { released(memory); }
 void operator delete(void* memory, std::size_t) noexcept { released(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { released(memory); }
 
+namespace slipwave::segy_damage_test {
 namespace {
 
 /// Of a small file, however large the numbers in its headers: buffers.
@@ -247,3 +252,5 @@ TEST(DamagedFile, PromisingTooMuchTakesNoMoreThanItHoldsAnd64MiB) {
   EXPECT_LT(of_pipe.largest, allowed);
   EXPECT_LT(of_pipe.most, allowed);
 }
+
+}  // namespace slipwave::segy_damage_test

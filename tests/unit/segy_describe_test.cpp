@@ -10,7 +10,8 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_describe_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -232,3 +233,5 @@ TEST(GatherReport, OfSeismicUnixHasNoText) {
   EXPECT_NE(lines.find("format           Seismic Unix\n"), std::string::npos);
   EXPECT_EQ(lines.find("text"), std::string::npos);
 }
+
+}  // namespace slipwave::segy_describe_test

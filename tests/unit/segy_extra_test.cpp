@@ -13,10 +13,11 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
+namespace slipwave::segy_extra_test {
+
 // What a file may hold beside one text and one header a trace: extended texts, additional trace headers,
 // trailers, traces of different length.
 
-using namespace slipwave;
 using namespace slipwave::segy;
 
 namespace {
@@ -329,3 +330,5 @@ TEST(TracesOfDifferentLength, AreWrittenAsTheyWereRead) {
   rewrite(scratch.file("x"), scratch.file("z"), {6, 2, Endian::little, TextEncoding::ascii, false});
   expect_same(read_file(scratch.file("z")), read_file(scratch.file("x")));
 }
+
+}  // namespace slipwave::segy_extra_test

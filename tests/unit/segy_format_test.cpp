@@ -10,7 +10,8 @@
 #include "base/error.hpp"
 #include "segy/sample_format.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_format_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -150,3 +151,5 @@ TEST(SampleFormat, IsFoundByNameAndCode) {
   EXPECT_EQ(find_format(4), nullptr);
   EXPECT_THROW(format_named("float"), Error);
 }
+
+}  // namespace slipwave::segy_format_test

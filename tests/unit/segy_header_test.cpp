@@ -8,7 +8,8 @@
 #include "segy/sniff.hpp"
 #include "segy/words.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_header_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -304,3 +305,5 @@ TEST(Sniff, TakesNoNetcdfForSeismicUnix) {
     EXPECT_EQ(kind_of(trace, trace.size()), FileKind::unknown) << signature;
   }
 }
+
+}  // namespace slipwave::segy_header_test

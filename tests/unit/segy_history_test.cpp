@@ -8,7 +8,8 @@
 #include "segy/history.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_history_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -76,3 +77,5 @@ TEST_F(HistoryInTraces, GoesOnThroughOtherToolsInOneStanza) {
   EXPECT_EQ(segy::history_of(Reader(next).header()).commands, info.history);
   std::filesystem::remove(next);
 }
+
+}  // namespace slipwave::segy_history_test

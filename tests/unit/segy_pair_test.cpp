@@ -7,7 +7,8 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_pair_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -55,3 +56,5 @@ TEST(PairReader, NamesFileTraceAndFieldThatDiffer) {
   EXPECT_EQ(outcome(survey_gather(), other), "B: has 47 traces, A has more");
   EXPECT_EQ(outcome(other, survey_gather()), "A: has 47 traces, B has more");
 }
+
+}  // namespace slipwave::segy_pair_test

@@ -10,7 +10,8 @@
 #include "segy/writer_headers.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_rounding_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -100,3 +101,5 @@ TEST(Places, OfTenthsOfMillimetresAreExactAndSmallerOnesAreSaid) {
   EXPECT_NE(places_rounded(layout_of(fine))[0].find("3e-05 m"), std::string::npos)
       << places_rounded(layout_of(fine))[0];
 }
+
+}  // namespace slipwave::segy_rounding_test

@@ -11,7 +11,8 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_roundtrip_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -196,3 +197,5 @@ TEST(SegyFile, ReadsTracesOfDifferentLengthByTheirOwnHeaders) {
   EXPECT_EQ(gather.traces[0].samples.size(), 25U);
   EXPECT_EQ(gather.traces[1].samples.size(), 20U);
 }
+
+}  // namespace slipwave::segy_roundtrip_test

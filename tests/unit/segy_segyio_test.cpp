@@ -8,9 +8,10 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
+namespace slipwave::segy_segyio_test {
+
 // segyio, which half of the world reads SEG-Y with, finds every word and every sample that were written.
 
-using namespace slipwave;
 using namespace slipwave::segy;
 
 namespace {
@@ -91,3 +92,5 @@ TEST(Segyio, FindsTheSameInWhatWasConverted) {
   put_expected(scratch.file("expected"), gather, format, Reader(scratch.file("g.sgy")).header().text);
   EXPECT_EQ(segyio_reads(to_read(scratch.file("g.sgy"), Endian::big, scratch.file("expected"))), 0);
 }
+
+}  // namespace slipwave::segy_segyio_test

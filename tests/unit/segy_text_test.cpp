@@ -7,7 +7,8 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
+namespace slipwave::segy_text_test {
+
 using namespace slipwave::segy;
 
 namespace {
@@ -126,3 +127,5 @@ TEST(TextualHeader, TellsItsEncodingWithoutALineNumber) {
   EXPECT_EQ(encoding_of(encode_text(text, TextEncoding::ascii)), TextEncoding::ascii);
   EXPECT_EQ(encoding_of(encode_text(text, TextEncoding::ebcdic)), TextEncoding::ebcdic);
 }
+
+}  // namespace slipwave::segy_text_test

@@ -9,8 +9,7 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::shooting_geometry_test {
 namespace {
 
 /// The survey of twelve traces whose headers are empty but for what `change` puts there.
@@ -91,3 +90,5 @@ TEST_F(GeometryOfTraces, OfSeveralComponentsAtOnePlaceCountsOnce) {
   ASSERT_EQ(survey.shots.size(), 1U);
   EXPECT_EQ(survey.places.size(), 6U);
 }
+
+}  // namespace slipwave::shooting_geometry_test

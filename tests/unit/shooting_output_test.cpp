@@ -5,7 +5,7 @@
 #include "shooting/output_names.hpp"
 #include "shooting/output_options.hpp"
 
-namespace slipwave {
+namespace slipwave::shooting_output_test {
 namespace {
 
 TEST(OutputNames, TellShotsAndComponentsApart) {
@@ -51,4 +51,4 @@ TEST(OutputOptions, WantSlipWhereAFieldIsOfSlip) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::shooting_output_test

@@ -10,7 +10,7 @@
 #include "segy_write_cases.hpp"
 #include "shooting/trace_wavelet.hpp"
 
-namespace slipwave {
+namespace slipwave::shooting_wavelet_test {
 namespace {
 
 class TraceWavelet : public testing::Test {
@@ -76,4 +76,4 @@ TEST_F(TraceWavelet, OfZerosIsNone) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::shooting_wavelet_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_band_columns_test {
 namespace {
 
 constexpr BandColumns<double>::Images even = {1, 1}, odd = {-1, -1}, mixed = {1, -1};
@@ -111,4 +111,4 @@ TEST(BandColumns, HaveImagesAsEdgesHave) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_band_columns_test

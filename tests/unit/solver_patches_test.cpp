@@ -4,7 +4,7 @@
 #include "scene/edges.hpp"
 #include "solver/schedule/patches.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_patches_test {
 namespace {
 
 /// Patches of a model of these columns whose second row has fractures in these cells.
@@ -77,4 +77,4 @@ TEST(Patches, AreWholeLinesNearTheirEndsAndWhereTheySaveNothing) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_patches_test

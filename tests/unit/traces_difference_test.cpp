@@ -9,7 +9,8 @@
 #include "segy/sample_format.hpp"
 #include "traces/float_difference.hpp"
 
-using namespace slipwave;
+namespace slipwave::traces_difference_test {
+
 using segy::Endian;
 
 namespace {
@@ -47,3 +48,5 @@ TEST(SubtractFloats, GivesTheBitsOfSubtractingDoublesInEveryByteOrder) {
       EXPECT_TRUE(difference == stored(expected, order_of_a));
     }
 }
+
+}  // namespace slipwave::traces_difference_test

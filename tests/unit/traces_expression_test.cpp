@@ -9,8 +9,7 @@
 
 #include "base/error.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::traces_expression_test {
 namespace {
 
 /// Trace 7 of its file: vz, shot 3, channel 12, from (100, 0, 5) to (400.1, 0, 2), offset 300, cdp -4.
@@ -224,3 +223,5 @@ TEST(HeaderKey, IsEveryWordOfATraceHeader) {
   EXPECT_FALSE(HeaderKey::named("Offset"));
   EXPECT_FALSE(HeaderKey::named(""));
 }
+
+}  // namespace slipwave::traces_expression_test

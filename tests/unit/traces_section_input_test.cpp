@@ -10,8 +10,7 @@
 #include "segy_write_cases.hpp"
 #include "traces/section.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::traces_section_input_test {
 namespace {
 
 Field<3> volume(std::int64_t nx, std::int64_t ny) {
@@ -194,3 +193,5 @@ TEST_F(SectionInput, SaysWhatASampleIntervalWouldMean) {
       "samples are 20 m apart if the interval (byte 3217, 20000 us) has 1 ms for 1 m; taken 25 m apart, as "
       "--step says");
 }
+
+}  // namespace slipwave::traces_section_input_test

@@ -7,8 +7,7 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::traces_section_test {
 namespace {
 
 Field<2> slope(double spacing_m = 2.5) {
@@ -77,3 +76,5 @@ TEST(Section, RefusesStepsTheFormatCannotHold) {
   write(scratch.file("s"), slope(100), wide);
   EXPECT_DOUBLE_EQ(segy::Reader(scratch.file("s")).axis().interval_s, 0.1);
 }
+
+}  // namespace slipwave::traces_section_test

@@ -14,8 +14,7 @@
 #include "segy_write_cases.hpp"
 #include "traces/record_sorter.hpp"
 
-using namespace slipwave;
-
+namespace slipwave::traces_sorting_test {
 namespace {
 
 struct Record {
@@ -160,3 +159,5 @@ TEST(SortKeys, SayWhichOneIsWrong) {
   EXPECT_EQ(sorting_code(parse_sort_keys("shot,offset").front()), 5);
   EXPECT_EQ(sorting_code(parse_sort_keys("channel").front()), -1);
 }
+
+}  // namespace slipwave::traces_sorting_test

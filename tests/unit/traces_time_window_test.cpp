@@ -7,7 +7,7 @@
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
-using namespace slipwave;
+namespace slipwave::traces_time_window_test {
 
 TEST(TimeWindow, HoldsItsEnds) {
   const SampleAxis axis{101, 0.001, 0.05};  // 0.05 to 0.15 s
@@ -64,3 +64,5 @@ TEST(TimeWindow, IsTwoTimesInOrder) {
   for (const char* text : {"", "1", "2:1", "1:2:3", "a:b", "1,2"})
     EXPECT_THROW(parse_time_window(text), Error);
 }
+
+}  // namespace slipwave::traces_time_window_test

@@ -13,7 +13,7 @@
 #include "rock/tilted_mean.hpp"
 #include "shared_out.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_bits_test {
 namespace {
 
 /// In several columns of tiles, or of so many rows that several ranks take their part.
@@ -404,4 +404,4 @@ INSTANTIATE_TEST_SUITE_P(
     name_of_case);
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_bits_test

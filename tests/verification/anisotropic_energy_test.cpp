@@ -10,7 +10,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_energy_test {
 namespace {
 
 /// A scene of any rocks and water, which lie in cubes of so many cells, around a cluster of planes.
@@ -181,4 +181,4 @@ TEST(EnergyOfAnisotropicSpace, IsNotAddedToBySpringsHoweverStiffOrSoft) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_energy_test

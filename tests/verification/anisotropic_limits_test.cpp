@@ -12,7 +12,7 @@
 #include "rock/tilted_mean.hpp"
 #include "solver/effect/slip.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_limits_test {
 namespace {
 
 template <int D>
@@ -370,4 +370,4 @@ TEST(AbsorbingLayers, LetWavesOutWhoseFrontsAndEnergyGoOppositeWays) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_limits_test

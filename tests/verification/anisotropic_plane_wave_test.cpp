@@ -7,7 +7,7 @@
 #include "complex_system.hpp"
 #include "parallel/threads.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_plane_wave_test {
 namespace {
 
 /// One wave that a plane wave makes: its velocity and its slowness.
@@ -206,4 +206,4 @@ TEST(AnisotropicPlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_plane_wave_test

@@ -11,7 +11,7 @@
 #include "solver/effect/attenuation.hpp"
 #include "solver/kernels/relaxation_kernels.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_references_test {
 namespace {
 
 /// By how much the traces of two references differ, at most in one of them.
@@ -311,4 +311,4 @@ TEST(AttenuatingAnisotropy, RelaxesIsotropicCellsAsIsotropicMediaDo) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_references_test

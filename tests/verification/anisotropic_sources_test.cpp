@@ -13,7 +13,7 @@
 #include "rock/tilted_mean.hpp"
 #include "unit/model_cases.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_sources_test {
 namespace {
 
 bool show() { return std::getenv("SLIPWAVE_SHOW") != nullptr; }
@@ -625,4 +625,4 @@ TEST(AskewSpringsInSpace, AreToLongWavesTheMediumOfSchoenbergAndSayers) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_sources_test

@@ -9,7 +9,7 @@
 #include "parallel/threads.hpp"
 #include "solver/effect/slip.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::anisotropic_symmetry_test {
 namespace {
 
 using Layers = std::vector<std::pair<Material, std::int64_t>>;
@@ -561,4 +561,4 @@ TEST(ExchangedAnisotropy, DoesNotDependOnWhichWayItIsShot) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::anisotropic_symmetry_test

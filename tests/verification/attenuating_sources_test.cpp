@@ -5,7 +5,7 @@
 #include "cube.hpp"
 #include "sea_over_fractures.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::attenuating_sources_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -70,4 +70,4 @@ TEST(Attenuation, OfInfiniteQIsNone) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::attenuating_sources_test

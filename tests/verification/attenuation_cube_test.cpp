@@ -5,7 +5,7 @@
 #include "viscoelastic.hpp"
 
 // Attenuation in three dimensions against the closed form with complex speeds.
-namespace slipwave::solver {
+namespace slipwave::solver::attenuation_cube_test {
 namespace {
 
 constexpr double peak_hz = 20;
@@ -53,4 +53,4 @@ TEST(AttenuationOfACube, IsThatOfComplexModuli) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::attenuation_cube_test

@@ -7,7 +7,7 @@
 #include "solver/simulation.hpp"
 #include "viscoelastic.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::attenuation_test {
 namespace {
 
 constexpr double peak_hz = 20, infinite = PropertyRow::infinite;
@@ -269,4 +269,4 @@ TEST(Attenuation, InALayeredSeaFloorIsThatOfComplexSpeeds) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::attenuation_test

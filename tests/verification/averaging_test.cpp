@@ -8,7 +8,7 @@
 #include "plane_interface.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::averaging_test {
 namespace {
 
 constexpr Rock soft{2500, 1200, 2000}, hard{4500, 2250, 2500}, water{1500, 0, 1000};
@@ -193,4 +193,4 @@ TEST(AveragedInterface, OfWaterAndRockStaysAStaircaseOfFirstOrder) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::averaging_test

@@ -15,7 +15,7 @@
 #include "solver/simulation.hpp"
 #include "stack_scene.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::bands_test {
 namespace {
 
 constexpr Rock soft{900, 300, 1800}, mud{1600, 400, 1500}, hard{3500, 2000, 2300}, sea{1500, 0, 1000};
@@ -319,4 +319,4 @@ TEST(Bands, GiveTheSameBitsWhateverTheThreads) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::bands_test

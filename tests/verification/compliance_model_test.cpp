@@ -18,7 +18,7 @@
 #include "model/slip_regime.hpp"
 #include "planning/expected_slip.hpp"
 
-namespace slipwave {
+namespace slipwave::compliance_model_test {
 namespace {
 
 const solver::Rock rock{4500, 2250, 2500};
@@ -291,4 +291,4 @@ TEST(ExpectedSlip, SpeaksOnlyOfPlanesThatStickOrAreDry) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::compliance_model_test

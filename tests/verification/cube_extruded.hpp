@@ -2,10 +2,11 @@
 #pragma once
 
 #include "cube_shot.hpp"
+#include "usual_rock.hpp"
 
 namespace slipwave::solver {
 
-inline constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
+inline constexpr Rock water{1500, 0, 1000}, soft{2500, 1200, 2000};
 
 /// Water over two rocks.
 inline Rock reef_at(std::int64_t along, std::int64_t count, std::int64_t depth) {

@@ -8,7 +8,7 @@
 // A point source in a full space against Stokes' solution (1849; Aki & Richards 2002, eq. 4.23 and 4.29).
 // Planes of symmetry stand for most of the space: a source on a mirror is one of twice its strength in the
 // whole.
-namespace slipwave::solver {
+namespace slipwave::solver::cube_full_space_test {
 namespace {
 
 constexpr Rock rock{4500, 2600, 2500};
@@ -144,4 +144,4 @@ TEST(CubeFullSpace, ForcesAlongAllAxesMoveTheRockAsInTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_full_space_test

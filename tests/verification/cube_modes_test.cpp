@@ -6,7 +6,7 @@
 #include "cube.hpp"
 
 // Standing waves between mirrors: closed forms in a closed box.
-namespace slipwave::solver {
+namespace slipwave::solver::cube_modes_test {
 namespace {
 
 constexpr Rock rock{4500, 2600, 2500};
@@ -105,4 +105,4 @@ TEST(CubeModes, ConvergeWithTheFourthOrderInTime) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_modes_test

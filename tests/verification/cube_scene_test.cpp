@@ -4,7 +4,7 @@
 #include "cube_extruded.hpp"
 #include "parallel/threads.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::cube_scene_test {
 namespace {
 
 /// The same in 3-D, not the same from row to row, with a source and receivers all over it.
@@ -102,4 +102,4 @@ TEST(ExtrudedScene, AlongZGivesTheTracesOf2DInShortSteps) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_scene_test

@@ -5,7 +5,8 @@
 #include "planning/computed_share.hpp"
 #include "solver/shot_simulation.hpp"
 
-using namespace slipwave;
+namespace slipwave::cube_share_test {
+
 using namespace slipwave::solver;
 
 namespace {
@@ -53,3 +54,5 @@ TEST(CubeComputedShare, IsAsExpected) {
   compare(shares_of(slab, 5, 1200, 0.2, near), 0.05, 0.2);
   compare(shares_of(cube, 5, 320, 0.2, {{5, 5, 5}, {635, 635, 635}}), 0.3, 0.7);
 }
+
+}  // namespace slipwave::cube_share_test

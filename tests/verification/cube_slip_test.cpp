@@ -8,7 +8,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::cube_slip_test {
 namespace {
 
 constexpr SlipCorrection corrections[] = {SlipCorrection::first, SlipCorrection::second,
@@ -211,4 +211,4 @@ TEST(BlockMedium, OnlyTakesEnergy) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_slip_test

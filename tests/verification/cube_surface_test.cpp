@@ -4,7 +4,7 @@
 #include "cube_shot.hpp"
 #include "long_form.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::cube_surface_test {
 namespace {
 
 constexpr double spacing_m = 5, interval_s = 0.001, amplitude = 1e9;
@@ -136,4 +136,4 @@ TEST(CubeAbsorbingEdges, SendBackLittleOfAnExplosionAndAForce) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_surface_test

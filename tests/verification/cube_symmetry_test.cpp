@@ -5,7 +5,7 @@
 #include "long_form.hpp"
 #include "parallel/threads.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::cube_symmetry_test {
 namespace {
 
 TEST(CubeSymmetry, OfMirrorImagesAlongAllAxesIsKept) {
@@ -125,4 +125,4 @@ TEST(CubeReciprocity, OfForcesHoldsThroughWaterAndRock) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_symmetry_test

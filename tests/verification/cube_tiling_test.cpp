@@ -7,7 +7,7 @@
 #include "parallel/threads.hpp"
 #include "solver/schedule/tiled.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::cube_tiling_test {
 namespace {
 
 /// Sweeps alone.
@@ -189,4 +189,4 @@ TEST(SweepsOfACube, AreAlikeAlongAllAxes) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cube_tiling_test

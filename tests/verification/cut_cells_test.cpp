@@ -11,7 +11,7 @@
 #include "shared_out.hpp"
 #include "solver/effect/linear_slip.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::cut_cells_test {
 namespace {
 
 using Tensor2 = SymmetricTensor<2, double>;
@@ -309,4 +309,4 @@ TEST(CutCells, OfShareOneAreWholeCellsToTheBit) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::cut_cells_test

@@ -16,7 +16,7 @@
 #include "model/single_fracture.hpp"
 #include "model/spline_shares.hpp"
 
-namespace slipwave {
+namespace slipwave::disc_model_test {
 namespace {
 
 constexpr solver::Rock rock{4500, 2250, 2500};
@@ -309,4 +309,4 @@ TEST(FractureTraces, InThreeDimensionsArePolygons) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::disc_model_test

@@ -11,7 +11,7 @@
 #include "model/single_fracture.hpp"
 #include "shared_out.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::disc_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, slow_m = 75;  // of S waves at the peak of 30 Hz
@@ -277,4 +277,4 @@ TEST(Discs, AlongYGiveTheTracesOfLinesIn2D) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::disc_test

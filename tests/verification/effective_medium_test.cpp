@@ -14,7 +14,7 @@
 #include "model/effective_medium.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::effective_medium_test {
 namespace {
 
 const Material rock{3370, 1830, 2500};
@@ -189,4 +189,4 @@ TEST(EffectiveMedium, IsWhatSpringsConvergeToWithSecondOrder) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::effective_medium_test

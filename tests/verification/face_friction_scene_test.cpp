@@ -10,7 +10,7 @@
 #include "scene_of_faces.hpp"
 #include "slip_layer.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::face_friction_scene_test {
 namespace {
 
 // Proves (S43).
@@ -198,4 +198,4 @@ TEST(FaceFriction, ThatWeakensIsWhatARowOfCellsComesNearToo) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::face_friction_scene_test

@@ -10,7 +10,7 @@
 
 #include "lab.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::face_friction_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -312,4 +312,4 @@ TEST(FaceThatSticks, IsRockThatIsWhole) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::face_friction_test

@@ -9,7 +9,7 @@
 #include "solver/simulation.hpp"
 
 // Fitted grids against exact traces: of parallel layers at any depth and dip, by wave number (LayerStack).
-namespace slipwave::solver {
+namespace slipwave::solver::fitted_accuracy_test {
 namespace {
 
 constexpr Rock water{1500, 0, 1000}, rock{3000, 1600, 2200}, soft{2500, 1200, 2000}, hard{4500, 2250, 2500},
@@ -220,4 +220,4 @@ TEST(FittedSweep, OfDipsKeepsItsErrorsLong) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::fitted_accuracy_test

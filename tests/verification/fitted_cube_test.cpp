@@ -5,7 +5,7 @@
 #include "fitted_scenes.hpp"
 
 // Fitted grids in 3-D against those in 2-D, and against themselves with x and y exchanged.
-namespace slipwave::solver {
+namespace slipwave::solver::fitted_cube_test {
 namespace {
 
 const std::vector<Component> in_2d = {Component::vx, Component::vz, Component::sxx, Component::szz,
@@ -131,4 +131,4 @@ TEST(FittedCube, ThatDipsAlongXIsTheOneThatDipsAlongYTurned) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::fitted_cube_test

@@ -5,7 +5,7 @@
 #include "solver/simulation.hpp"
 
 // A sea floor that is a sine of 20 m x 300 m.
-namespace slipwave::solver {
+namespace slipwave::solver::fitted_curve_test {
 namespace {
 
 constexpr Rock rock{3000, 1600, 2200};
@@ -79,4 +79,4 @@ TEST(CurvedFloor, ObeysReciprocityOfForces) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::fitted_curve_test

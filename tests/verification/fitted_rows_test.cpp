@@ -2,7 +2,7 @@
 #include "fitted_scenes.hpp"
 
 // Rows that follow horizons, where these are level.
-namespace slipwave::solver {
+namespace slipwave::solver::fitted_rows_test {
 namespace {
 
 /// The same scene with a grid that has the depths of a regular one.
@@ -62,4 +62,4 @@ TEST(FittedRows, ThatAreAllOneCellHighGiveTheBitsOfARegularGrid) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::fitted_rows_test

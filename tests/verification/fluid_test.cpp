@@ -8,7 +8,7 @@
 #include "solver/shot_simulation.hpp"
 
 // Models that are all fluid, whose state holds one stress and whose sweeps are of P waves alone.
-namespace slipwave::solver {
+namespace slipwave::solver::fluid_test {
 namespace {
 
 constexpr Rock water{1500, 0, 1000}, brine{2000, 0, 1300};
@@ -107,4 +107,4 @@ TEST(Fluid, NeedsLessMemoryThanRock) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::fluid_test

@@ -15,7 +15,8 @@
 #include "shooting/scene_options.hpp"
 #include "solver/simulation.hpp"
 
-using namespace slipwave;
+namespace slipwave::injection_test {
+
 using solver::Rock;
 
 namespace {
@@ -154,3 +155,5 @@ TEST_F(Injection, OfVelocitiesIsAdjointToTheOrderOfTheSchemeInRock) {
   for (const Component component : {Component::vx, Component::vz})
     EXPECT_LT(std::abs(mismatch(rock, component, {105, 205}, {355, 125})), 0.02) << name_of(component);
 }
+
+}  // namespace slipwave::injection_test

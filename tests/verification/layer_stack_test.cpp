@@ -6,7 +6,7 @@
 #include "plane_interface.hpp"
 
 // The exact traces of stacks against closed forms and the coefficients of one interface.
-namespace slipwave::solver {
+namespace slipwave::solver::layer_stack_test {
 namespace {
 
 constexpr Rock water{1500, 0, 1000}, rock{3000, 1600, 2200}, hard{4500, 2250, 2500};
@@ -50,4 +50,4 @@ TEST(LayerStack, ObeysReciprocity) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::layer_stack_test

@@ -15,7 +15,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::linear_slip_cells_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -494,4 +494,4 @@ TEST(SpringMedium, HasThomsensParametersOfWeakFractures) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::linear_slip_cells_test

@@ -12,7 +12,7 @@
 #include "solver/effect/linear_slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::linear_slip_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -262,4 +262,4 @@ TEST(SpringRow, WithDashpotsDoesSoToo) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::linear_slip_test

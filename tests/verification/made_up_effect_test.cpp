@@ -17,7 +17,7 @@
 #include "solver/effect/effect.hpp"
 #include "solver/record/record.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::made_up_effect_test {
 namespace {
 
 /// Drag on all that moves, dv/dt = -v/tau, half of it before a step ends and half after.
@@ -260,4 +260,4 @@ TEST(MadeUpFace, GivesTheSameBitsPlainlyAndInTiles) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::made_up_effect_test

@@ -8,7 +8,7 @@
 #include "planning/wanted_error.hpp"
 
 // Errors as they are measured against those found by closed forms.
-namespace slipwave::solver {
+namespace slipwave::solver::measured_error_test {
 namespace {
 
 /// How many promises are too small, how many too large, and how many are as they should be.
@@ -73,4 +73,4 @@ TEST(MeasuredError, IsThatOfClosedFormsAndOfStacksDrawnAfreshLong) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::measured_error_test

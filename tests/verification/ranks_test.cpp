@@ -11,7 +11,7 @@
 #include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::ranks_test {
 namespace {
 
 /// Water over rocks, with fractures and voids down to the bottom.
@@ -272,4 +272,4 @@ TEST(Ranks, ThrowWhatOneOfThemThrows) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::ranks_test

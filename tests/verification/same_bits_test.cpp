@@ -5,7 +5,7 @@
 #include "continued.hpp"
 #include "plain_and_tiled.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::same_bits_test {
 namespace {
 
 class SameBits : public testing::TestWithParam<BitScene> {};
@@ -29,4 +29,4 @@ INSTANTIATE_TEST_SUITE_P(Of, SameBits, testing::ValuesIn(bit_scenes()),
                          [](const auto& of) { return of.param.name; });
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::same_bits_test

@@ -14,7 +14,7 @@
 #include "model/model_netcdf.hpp"
 #include "model/single_fracture.hpp"
 
-namespace slipwave {
+namespace slipwave::single_fracture_model_test {
 namespace {
 
 constexpr solver::Rock rock{4500, 2250, 2500};
@@ -220,4 +220,4 @@ TEST(FractureNetwork, HasTheIntensityAskedForAndEndsWithTheModel) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::single_fracture_model_test

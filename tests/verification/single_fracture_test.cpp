@@ -13,7 +13,7 @@
 #include "scene_of_faces.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::single_fracture_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -208,4 +208,4 @@ TEST(SingleFracture, ErrsMoreTheSofterItIsAndLessInSmallCellsLong) {
 TEST(FractureOnFaces, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_precision(cracked()); }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::single_fracture_test

@@ -7,6 +7,7 @@
 
 #include "lab.hpp"
 #include "scene/scene.hpp"
+#include "usual_rock.hpp"
 
 // Plane waves straight through a layer of slipping cells in uniform rock. The strength S does not change with
 // time, so that the slip rate is g = (|tau|/S - 1)_+ tau/(eta |tau|) (theory.md (S3)). A layer is told by its
@@ -14,7 +15,6 @@
 // t_r = eta S/mu: 0.1 is nearly stuck, 100 nearly dry.
 namespace slipwave::solver {
 
-inline constexpr Rock rock{4500, 2250, 2500};
 inline const double z_s = rock.rho * rock.vs, mu = rock.mu(), modulus_p = rock.rho * rock.vp * rock.vp;
 inline constexpr double peak_pa = 1e6, strength_pa = 0.3e6, peak_hz = 30;
 

@@ -8,7 +8,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_absorbing_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -113,4 +113,4 @@ TEST(AbsorbingEdge, TakesUpWavesThatGrazeItWithAnErrorOfSecondOrderInItsCells) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_absorbing_test

@@ -4,7 +4,7 @@
 #include "plane_interface.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_angle_test {
 namespace {
 
 constexpr Rock soft{2500, 1200, 2000}, hard{4500, 2250, 2500}, water{1500, 0, 1000};
@@ -134,4 +134,4 @@ TEST(HeadWave, ArrivesFirstAndOnTime) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_angle_test

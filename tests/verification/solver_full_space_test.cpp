@@ -6,7 +6,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_full_space_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -117,4 +117,4 @@ TEST(FullSpace, ForceAlongZMovesTheRockAsInTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_full_space_test

@@ -5,7 +5,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_half_space_test {
 namespace {
 
 constexpr double peak_hz = 20, vs = 2000, wavelength_m = vs / peak_hz, interval_s = 0.001;
@@ -191,4 +191,4 @@ INSTANTIATE_TEST_SUITE_P(HalfSpaceLong, LambAt,
                          testing::Values(SurfaceCase{1.6, 37, 4.4}, SurfaceCase{3, 34, 3}), name_of_case);
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_half_space_test

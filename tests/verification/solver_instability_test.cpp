@@ -13,7 +13,7 @@
 #include "solver/simulation.hpp"
 
 // A run whose fields are no longer those of waves ends, and says where that began.
-namespace slipwave::solver {
+namespace slipwave::solver::solver_instability_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000};
@@ -306,4 +306,4 @@ TEST(Instability, NothingThatStandsStillIsTakenForIt) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_instability_test

@@ -8,7 +8,7 @@
 
 #include "solver/sweep/interface_stencils.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_interface_stencils_test {
 namespace {
 
 /// Cells that `is` says so of, from a cell outwards along an axis, up to `reach` of them and not beyond the
@@ -131,4 +131,4 @@ TEST(InterfaceStencils, CorrectCellsThatAreAlikeAsEachAlone) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_interface_stencils_test

@@ -4,7 +4,7 @@
 #include "lab.hpp"
 #include "long_form.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_interface_test {
 namespace {
 
 using L = Lab<double>;
@@ -191,4 +191,4 @@ TEST(Interface, OfEqualSpeedsKeepsTheOrderOfTheReconstruction) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_interface_test

@@ -11,7 +11,7 @@
 #include "solver/shot_simulation.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_invariance_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
@@ -230,4 +230,4 @@ TEST(Reciprocity, OfExplosionsForcesPressureAndVelocityHoldsThroughWaterAndRock)
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_invariance_test

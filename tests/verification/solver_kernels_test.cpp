@@ -13,7 +13,7 @@
 #include "solver/kernels/series_kernels.hpp"
 #include "solver/sweep/workspace.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_kernels_test {
 namespace {
 
 /// Loops over one material with kernels of either kind: all they write.
@@ -300,4 +300,4 @@ TEST(Kernels, OfUniformRunsGiveWhatFacesDoAndRoundNoMore) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_kernels_test

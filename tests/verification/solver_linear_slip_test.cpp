@@ -9,7 +9,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_linear_slip_test {
 namespace {
 
 /// Of P waves (a) and S waves (b) from the normal of the row: sin(a)/vp = sin(b)/vs.
@@ -145,4 +145,4 @@ INSTANTIATE_TEST_SUITE_P(Waves, LinearSlip,
                          });
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_linear_slip_test

@@ -6,7 +6,7 @@
 #include "lab.hpp"
 #include "long_form.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_media_test {
 namespace {
 
 using L = Lab<float>;
@@ -93,4 +93,4 @@ TEST(FreeEnd, KeepsSecondOrderInTwoDimensions) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_media_test

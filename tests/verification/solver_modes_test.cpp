@@ -10,7 +10,7 @@
 #include "lab.hpp"
 #include "long_form.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_modes_test {
 namespace {
 
 using L = Lab<double>;
@@ -190,4 +190,4 @@ TEST(StepError, AlongAnAxisIsTheOneOfTheSweep) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_modes_test

@@ -6,7 +6,7 @@
 
 #include "lab.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_monotone_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, soft{2000, 900, 2000};
@@ -137,4 +137,4 @@ TEST(Monotone, TransmittedAndReflectedPulsesDoNotExceedTheirCoefficients) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_monotone_test

@@ -6,7 +6,7 @@
 #include "solver/simulation.hpp"
 
 // Point sources a few cells from a receiver, a free surface or an interface, against closed forms.
-namespace slipwave::solver {
+namespace slipwave::solver::solver_near_field_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, soft{2500, 1200, 2000};
@@ -114,4 +114,4 @@ TEST(PointSource, BesideAnInterfaceStaysInItsRock) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_near_field_test

@@ -10,7 +10,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_oblique_wave_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -377,4 +377,4 @@ TEST(PlaneWaveEdges, AddTheLessToAScatteredFieldTheFinerTheCells) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_oblique_wave_test

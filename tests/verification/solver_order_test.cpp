@@ -7,7 +7,7 @@
 #include "accuracy/dispersion.hpp"
 #include "lab.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_order_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -144,4 +144,4 @@ TEST(Dispersion, NeverAmplifiesAndLosesLessTheHigherTheOrder) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_order_test

@@ -8,7 +8,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_parting_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -156,4 +156,4 @@ TEST(PartingPlanes, SendTensionBackAsAFreeSurfaceTheMoreTheFinerTheCells) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_parting_test

@@ -9,7 +9,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_plane_wave_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -229,4 +229,4 @@ TEST(PlaneWave, IsTheSameWithAbsorbingSidesAsWithMirrorsHoweverShallowTheModel) 
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_plane_wave_test

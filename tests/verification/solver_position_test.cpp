@@ -9,7 +9,7 @@
 #include "solver/sweep/point_weights.hpp"
 #include "stack_scene.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_position_test {
 namespace {
 
 /// The centre of the model at (0, 0) or, with a free top, the middle of its surface.
@@ -343,4 +343,4 @@ TEST(SourceAndReceivers, OnAnInterfaceBesideASideStayWithinTheModel) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_position_test

@@ -14,7 +14,7 @@
 #include "viscoelastic.hpp"
 
 // What is recorded beside velocity and stress: displacement, acceleration, strain rates, div, curl, DAS.
-namespace slipwave::solver {
+namespace slipwave::solver::solver_records_test {
 namespace {
 
 using enum Component;
@@ -591,4 +591,4 @@ TEST(CubeRecords, OfAFullSpaceAreThoseOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_records_test

@@ -9,7 +9,7 @@
 #include "solver/simulation.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_slip_diary_test {
 namespace {
 
 /// Steps of slip under random loads of up to load_pa: the energy that all cells lose by it.
@@ -188,4 +188,4 @@ TEST(SlipDiary, IsInSiUnitsWhateverUnitTheFieldsHave) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_slip_diary_test

@@ -6,7 +6,7 @@
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_slip_layer_test {
 namespace {
 
 constexpr double depth_m = 500, wave_at_m = 130, layer_at_m = 250, reader_m = 20, end_s = 0.15;
@@ -189,4 +189,4 @@ TEST(SlipLayerOfOneCell, IsAnInterfaceOfSomeMoreViscosity) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_slip_layer_test

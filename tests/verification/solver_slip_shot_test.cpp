@@ -5,7 +5,7 @@
 #include "slip_layer.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_slip_shot_test {
 namespace {
 
 /// A whole shot: a plane P wave, slip planes at 45 degrees, a strip between planes of symmetry. Waves are
@@ -77,4 +77,4 @@ TEST(SlipLayer, PassesAndReflectsPWavesAsInOneDimension) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_slip_shot_test

@@ -6,7 +6,7 @@
 
 #include "layer_in_tension.hpp"
 
-namespace slipwave::solver::tension {
+namespace slipwave::solver::tension::solver_slip_tension_test {
 namespace {
 
 // Proves (S27).
@@ -30,4 +30,4 @@ TEST(SlipInTension, IsFeltByTheWavesWithSecondOrderByTheCentredCorrectionAlone) 
 }
 
 }  // namespace
-}  // namespace slipwave::solver::tension
+}  // namespace slipwave::solver::tension::solver_slip_tension_test

@@ -5,7 +5,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_slip_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500};
@@ -133,4 +133,4 @@ TEST(DryFriction, BoundsTheShearTractionAfterEveryStep) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_slip_test

@@ -4,7 +4,7 @@
 #include "lab.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_snapshots_test {
 namespace {
 
 /// All fields of all snapshots of a wave that comes to cracks.
@@ -76,4 +76,4 @@ TEST(Snapshots, HoldWhatReceiversAtMiddlesOfCellsRecordThen) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_snapshots_test

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace slipwave {
+namespace slipwave::solver_splitting_test {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -92,4 +92,4 @@ TEST(Splitting, IsSymmetricInTimeAndMakesWholeSteps) {
 }
 
 }  // namespace
-}  // namespace slipwave
+}  // namespace slipwave::solver_splitting_test

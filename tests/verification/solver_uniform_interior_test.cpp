@@ -5,7 +5,7 @@
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_uniform_interior_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000}, nothing{0, 0, 0};
@@ -107,4 +107,4 @@ TEST(UniformInterior, SplitsColumnsIntoRunsAndTheRest) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_uniform_interior_test

@@ -7,7 +7,7 @@
 #include "long_form.hpp"
 #include "solver/simulation.hpp"
 
-namespace slipwave::solver {
+namespace slipwave::solver::solver_weakening_test {
 namespace {
 
 std::vector<double> samples(const Gather& gather) {
@@ -103,4 +103,4 @@ TEST(SlipWeakeningShot, HasThemIn3DToo) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::solver_weakening_test

@@ -8,7 +8,7 @@
 #include "solver/shot_simulation.hpp"
 
 // What a time step is made of, and what its effects write.
-namespace slipwave::solver {
+namespace slipwave::solver::time_step_test {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000};
@@ -83,4 +83,4 @@ TEST(Effects, WriteNothingButWhatTheyDeclare) {
 }
 
 }  // namespace
-}  // namespace slipwave::solver
+}  // namespace slipwave::solver::time_step_test
