@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "solver/sweep/interface_stencils.hpp"
+
 namespace slipwave::solver::solver_band_columns_test {
 namespace {
 
@@ -99,7 +101,7 @@ TEST_P(BandColumnsOf, TakeLanesSideBySide) {
 
 INSTANTIATE_TEST_SUITE_P(Ratios, BandColumnsOf, testing::Values(2, 3, 4));
 
-TEST(BandColumns, HaveImagesAsEdgesHave) {
+TEST(ImageSign, IsThatOfTheLawOfTheEdge) {
   EXPECT_EQ(image_sign<2>(EdgeLaw::free, 0, FieldRows<2>::velocity(0)), 1);
   EXPECT_EQ(image_sign<2>(EdgeLaw::free, 0, FieldRows<2>::shear_stress(0, 1)), -1);
   EXPECT_EQ(image_sign<2>(EdgeLaw::rigid, 0, FieldRows<2>::velocity(1)), -1);

@@ -137,8 +137,7 @@ void turn(Cube<double>& from, const std::array<std::size_t, 3>& axis_of, Cube<do
       to(Rows::normal_stress(a), there) = from(Rows::normal_stress(b), at);
       for (int other = a + 1; other < 3; ++other) {
         const int c = int(axis_of[std::size_t(other)]);
-        to(Rows::shear_stress(a, other), there) =
-            from(Rows::shear_stress(std::min(b, c), std::max(b, c)), at);
+        to(Rows::shear_stress(a, other), there) = from(Rows::shear_stress(b, c), at);
       }
     }
   }

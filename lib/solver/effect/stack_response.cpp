@@ -20,8 +20,7 @@ std::size_t velocity(int axis) {
 }
 template <int D>
 std::size_t traction(int axis) {
-  using Rows = FieldRows<D>;
-  return std::size_t(axis == D - 1 ? Rows::normal_stress(axis) : Rows::shear_stress(axis, D - 1));
+  return std::size_t(FieldRows<D>::stress(axis, D - 1));
 }
 
 std::vector<LayerWave<2>> waves_of(const Material& rock, const Point<2>& slowness, bool down) {
@@ -42,9 +41,7 @@ WaveFields<D, Number> fields_of_motion(const Elasticity<D>& stiffness,
   const auto stress = stress_of_motion<D, Number>(stiffness, slowness, velocity);
   for (int i = 0; i < D; ++i) {
     fields[std::size_t(Rows::velocity(i))] = velocity[std::size_t(i)];
-    fields[std::size_t(Rows::normal_stress(i))] = stress[std::size_t(i)];
-    for (int j = i + 1; j < D; ++j)
-      fields[std::size_t(Rows::shear_stress(i, j))] = stress[Elasticity<D>::pair(i, j)];
+    for (int j = i; j < D; ++j) fields[std::size_t(Rows::stress(i, j))] = stress[Elasticity<D>::pair(i, j)];
   }
   return fields;
 }

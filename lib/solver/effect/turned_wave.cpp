@@ -14,8 +14,6 @@ namespace {
 using Rows = FieldRows<3>;
 constexpr std::size_t field_count = std::size_t(Rows::count);
 
-int shear(int one, int other) { return Rows::shear_stress(std::min(one, other), std::max(one, other)); }
-
 /// The waves along an axis that fields are made of, and their velocities.
 std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const MotionAlongX& medium,
                                                           const WaveFields<3>& fields) {
@@ -35,9 +33,9 @@ std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const Motion
       if (other == axis) continue;
       set(p, Rows::normal_stress(other), -sign * medium.zp * medium.passive * v);
       if (medium.zs == 0) continue;
-      const double across = (of(other) - sign * of(shear(axis, other)) / medium.zs) / 2;
+      const double across = (of(other) - sign * of(Rows::shear_stress(axis, other)) / medium.zs) / 2;
       set(s, other, across);
-      set(s, shear(axis, other), -sign * medium.zs * across);
+      set(s, Rows::shear_stress(axis, other), -sign * medium.zs * across);
     }
     waves.emplace_back(p, sign * medium.vp);
     if (medium.zs > 0) waves.emplace_back(s, sign * medium.vs);
@@ -59,7 +57,7 @@ std::vector<std::pair<WaveFields<3>, double>> waves_along(int axis, const Elasti
     const double c = std::sqrt(all.values[n] / rho);
     double v = 0, t = 0;
     for (int i = 0; i < 3; ++i) {
-      const int row = i == axis ? Rows::normal_stress(axis) : shear(axis, i);
+      const int row = Rows::stress(axis, i);
       v += motion[std::size_t(i)] * fields[std::size_t(i)];
       t += motion[std::size_t(i)] * fields[std::size_t(row)];
     }
@@ -275,9 +273,9 @@ WaveFields<3> turned(const MotionAlongX& medium, const PlaneFields& fields,
   set(Rows::normal_stress(0), srr * x * x + across * y * y);
   set(Rows::normal_stress(1), srr * y * y + across * x * x);
   set(Rows::normal_stress(2), szz);
-  set(shear(0, 1), (srr - across) * x * y);
-  set(shear(0, 2), fields[plane_sxz] * x);
-  set(shear(1, 2), fields[plane_sxz] * y);
+  set(Rows::shear_stress(0, 1), (srr - across) * x * y);
+  set(Rows::shear_stress(0, 2), fields[plane_sxz] * x);
+  set(Rows::shear_stress(1, 2), fields[plane_sxz] * y);
   return space;
 }
 

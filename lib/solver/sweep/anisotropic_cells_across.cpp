@@ -287,9 +287,7 @@ void AnisotropicCellsAcross<D, Real>::add_stress(std::int64_t line, const IndexR
       for (int other = one; other < D; ++other) {
         using Rows = FieldRows<D>;
         const auto& by = media_[std::size_t(medium)][Elasticity<D>::pair(one, other)];
-        Real* __restrict const stress =
-            of.fields.first + i +
-            (one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other)) * of.fields.pitch;
+        Real* __restrict const stress = of.fields.first + i + Rows::stress(one, other) * of.fields.pitch;
         for (std::int64_t k = 0; k < n; ++k) {
           Real sum = by[0] * strain[0][k] + by[1] * strain[1][k] + by[2] * strain[2][k];
           if constexpr (D == 3) sum += by[3] * strain[3][k] + by[4] * strain[4][k] + by[5] * strain[5][k];

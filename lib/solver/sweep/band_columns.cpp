@@ -176,22 +176,6 @@ void BandColumns<Real>::add(Real tap, const Real* beside, std::size_t first, std
   for (auto n = first; n < last; ++n) sums_[n] += tap * beside[n];
 }
 
-template <int D>
-int image_sign(EdgeLaw law, int axis, int field_row) {
-  using Rows = FieldRows<D>;
-  const auto sign = [law](Wave wave, bool velocity) {
-    const auto extension = extension_of(law, wave);
-    return extension == (velocity ? Extension::motionless : Extension::traction_free) ? -1 : 1;
-  };
-  if (field_row < D) return sign(field_row == axis ? wave_p : wave_s, true);
-  if (field_row == Rows::normal_stress(axis)) return sign(wave_p, false);
-  for (int other = 0; other < D; ++other)
-    if (other != axis && field_row == Rows::shear_stress(std::min(axis, other), std::max(axis, other)))
-      return sign(wave_s, false);
-  return 1;
-}
-
 SLIPWAVE_INSTANTIATE_REAL(TYPE, class BandColumns);
-SLIPWAVE_INSTANTIATE_D(FUNCTION, image_sign);
 
 }  // namespace slipwave::solver

@@ -48,9 +48,4 @@ class BandColumns {
   std::vector<Real> parts_, sums_;
 };
 
-/// The sign of the image of a field row beyond an edge of a horizontal axis: velocities and tractions there
-/// by the law of the edge, what else there is even.
-template <int D>
-int image_sign(EdgeLaw law, int axis, int field_row);
-
 }  // namespace slipwave::solver

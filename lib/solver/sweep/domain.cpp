@@ -638,8 +638,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   if (anisotropic || of) {
     SymmetricTensor<D, double> s;
     for (int axis = 0; axis < D; ++axis)
-      for (int other = axis; other < D; ++other)
-        s(axis, other) = value(other == axis ? Rows::normal_stress(axis) : Rows::shear_stress(axis, other));
+      for (int other = axis; other < D; ++other) s(axis, other) = value(Rows::stress(axis, other));
     return energy_with(complementary<D>(of ? of->elasticity : elasticity_along_grid(medium, cell), s.values));
   }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.

@@ -68,18 +68,6 @@ std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, con
   return {normal, height};
 }
 
-/// The sign of a field in its mirror image at an edge of an axis.
-template <int D>
-double sign_beyond(EdgeLaw law, int axis, int row) {
-  using Rows = FieldRows<D>;
-  const bool is_velocity = row < D;
-  bool shear = is_velocity && row != Rows::velocity(axis);
-  for (int other = 0; other < D; ++other) shear |= other != axis && row == Rows::shear_stress(axis, other);
-  const auto extension = extension_of(law, shear ? wave_s : wave_p);
-  if (is_velocity) return extension == Extension::motionless ? -1 : 1;
-  return extension == Extension::traction_free ? -1 : 1;
-}
-
 }  // namespace
 
 template <int D>
@@ -94,7 +82,7 @@ bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offse
     if (!below && place < n) continue;
     const EdgeLaw law = domain.edges[axis][below ? 0 : 1];
     if (law == EdgeLaw::free) return false;
-    term.weight *= sign_beyond<D>(law, axis, row);
+    term.weight *= image_sign<D>(law, axis, row);
     place = below ? -1 - place : 2 * n - 1 - place;
     if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
     place = std::clamp<std::int64_t>(place, 0, n - 1);

@@ -12,6 +12,7 @@
 #include "scene/edges.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/sweep/by_line.hpp"
+#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 
@@ -38,6 +39,17 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
       break;
   }
   return Extension::constant;
+}
+
+/// The sign of the image of a field row beyond an edge of an axis: velocities and tractions there by the law
+/// of the edge, what else there is even.
+template <int D>
+constexpr int image_sign(EdgeLaw law, int axis, int row) {
+  using Rows = FieldRows<D>;
+  const bool velocity = row < D, of_p = row == Rows::velocity(axis) || row == Rows::normal_stress(axis);
+  if (!velocity && !Rows::is_traction(axis, row)) return 1;
+  const auto odd = velocity ? Extension::motionless : Extension::traction_free;
+  return extension_of(law, of_p ? wave_p : wave_s) == odd ? -1 : 1;
 }
 
 /// Cells the reconstruction may reach beyond a corrected free surface, a strong interface or a contrast: with

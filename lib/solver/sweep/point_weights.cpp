@@ -24,23 +24,11 @@ template <int D>
 Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   using Rows = FieldRows<D>;
   if (law == EdgeLaw::absorbing) return Beyond::unknown;
-  bool velocity = row < D, normal = row == Rows::velocity(axis) || row == Rows::normal_stress(axis);
-  if (!velocity && !normal) {
-    bool traction = false;
-    for (int other = 0; other < D; ++other)
-      traction |= other != axis && row == Rows::shear_stress(std::min(axis, other), std::max(axis, other));
-    // Components without an index across a plane of symmetry are even about it.
-    if (!traction && law == EdgeLaw::mirror) return Beyond::even;
-    if (!traction && !fluid) return Beyond::unknown;
-    normal = !traction;
-  }
   // Along an edge the velocity of fluid follows the gradient of pressure, and so has its parity.
-  if (velocity && !normal && fluid) {
-    velocity = false;
-    normal = true;
-  }
-  const bool motionless = extension_of(law, normal ? wave_p : wave_s) == Extension::motionless;
-  return velocity == motionless ? Beyond::odd : Beyond::even;
+  if (fluid && row != Rows::velocity(axis)) row = Rows::normal_stress(axis);
+  // Components without an index across a plane of symmetry are even about it.
+  if (row >= D && !Rows::is_traction(axis, row) && law != EdgeLaw::mirror) return Beyond::unknown;
+  return image_sign<D>(law, axis, row) < 0 ? Beyond::odd : Beyond::even;
 }
 
 /// Whether the scheme's stencils end between two cells of one kind.
@@ -287,7 +275,8 @@ class InterfaceErrors {
       const auto cell = beside(at, n);
       if (of_jump_[0] != 0)
         all.push_back({cell, FieldRows<D>::velocity(velocity_), sign_of(n) * of_jump_[0]});
-      if (of_jump_[1] != 0) all.push_back({cell, stress(axis_, velocity_), sign_of(n) * of_jump_[1]});
+      if (of_jump_[1] != 0)
+        all.push_back({cell, FieldRows<D>::stress(axis_, velocity_), sign_of(n) * of_jump_[1]});
       if (!add_along(cell, load_[n], thrust_[n], all)) return {};
     }
     return all;
@@ -295,10 +284,6 @@ class InterfaceErrors {
 
  private:
   static double sign_of(std::size_t side) { return side == 0 ? -1 : 1; }
-  static int stress(int one, int other) {
-    return one == other ? FieldRows<D>::normal_stress(one)
-                        : FieldRows<D>::shear_stress(std::min(one, other), std::max(one, other));
-  }
   Index<D> beside(Index<D> at, std::size_t side) const {
     at[std::size_t(axis_)] = behind_ - (side == 0 ? 1 : 0);
     return at;
@@ -325,8 +310,8 @@ class InterfaceErrors {
             !add_term(domain_, cell, offset, FieldRows<D>::velocity(motion), load * of_strain * difference,
                       all))
           return false;
-        if (thrust != 0 &&
-            !add_term(domain_, cell, offset, stress(along, velocity_), thrust * difference, all))
+        if (thrust != 0 && !add_term(domain_, cell, offset, FieldRows<D>::stress(along, velocity_),
+                                     thrust * difference, all))
           return false;
       }
     }
@@ -588,11 +573,10 @@ std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Do
 
 template <int D>
 int row_of(const WaveField& field) {
-  using Rows = FieldRows<D>;
   const auto axis = [](int of_3d) { return std::min(of_3d, D - 1); };  // 2-D: x and z
   const int one = axis(field.axis), other = axis(field.other_axis);
-  if (field.quantity == WaveField::Quantity::velocity) return Rows::velocity(one);
-  return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
+  if (field.quantity == WaveField::Quantity::velocity) return FieldRows<D>::velocity(one);
+  return FieldRows<D>::stress(one, other);
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, cell_at);

@@ -109,6 +109,15 @@ struct FieldRows {
   static constexpr int shear_stress(int axis_a, int axis_b) {
     return D == 2 ? 4 : 5 + axis_a + axis_b;  // xy 6, xz 7, yz 8
   }
+  static constexpr int stress(int axis_a, int axis_b) {
+    return axis_a == axis_b ? normal_stress(axis_a) : shear_stress(axis_a, axis_b);
+  }
+  /// Whether a row is a component of the traction on faces across an axis.
+  static constexpr bool is_traction(int axis, int row) {
+    for (int along = 0; along < D; ++along)
+      if (row == stress(axis, along)) return true;
+    return false;
+  }
   static bool is_stored(const Layout<D>& layout, int row) { return row < 2 * D || row < layout.rows(); }
   /// The row of a line that holds one that is stored.
   static int stored(const Layout<D>& layout, int row) { return std::min(row, layout.rows() - 1); }

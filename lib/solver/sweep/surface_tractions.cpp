@@ -136,13 +136,6 @@ std::vector<int> axes_along(const Domain<D>& domain, int across) {
   return axes;
 }
 
-template <int D>
-int stress_row(int one, int other) {
-  using Rows = FieldRows<D>;
-  return one == other ? Rows::normal_stress(one)
-                      : Rows::shear_stress(std::min(one, other), std::max(one, other));
-}
-
 /// Second differences along the surface of the stresses in it. On a curvilinear row those of their horizontal
 /// components, which are the contravariant ones along the rows where there is no traction.
 template <int D>
@@ -150,7 +143,7 @@ PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at, const End& 
   PairSums<D> sums(domain, at, end);
   for (const int along : axes_along(domain, end.axis))
     for (const int other : axes_along(domain, end.axis))
-      sums.add(sums.stresses, second_difference<D>(along, other), stress_row<D>(along, other),
+      sums.add(sums.stresses, second_difference<D>(along, other), FieldRows<D>::stress(along, other),
                1 / (cell_along(domain, at, along) * cell_along(domain, at, other)));
   return sums;
 }
@@ -181,7 +174,7 @@ void add_bend(const Domain<D>& domain, const Index<D>& at, const End& end, int c
   const double per_cell = 2 * height / (height + cell_along(domain, second, end.axis));
   for (const int along : axes_along(domain, end.axis))
     for (const int behind : {0, 1})
-      sums.add(sums.bend, first_difference<D>(along), stress_row<D>(along, component),
+      sums.add(sums.bend, first_difference<D>(along), FieldRows<D>::stress(along, component),
                (behind ? -0.5 : 0.5) * per_cell / cell_along(domain, at, along), behind);
 }
 

@@ -268,9 +268,7 @@ auto Sweeps<D, Real>::make_pairs(int axis) const -> std::array<Pair, D> {
   all[0] = {wave_p, Rows::velocity(axis), Rows::stored(state_.layout, Rows::normal_stress(axis))};
   int n = 1;
   for (int other = 0; other < D; ++other)
-    if (other != axis)
-      all[n++] = {wave_s, Rows::velocity(other),
-                  Rows::shear_stress(std::min(axis, other), std::max(axis, other))};
+    if (other != axis) all[n++] = {wave_s, Rows::velocity(other), Rows::shear_stress(axis, other)};
   return all;
 }
 
