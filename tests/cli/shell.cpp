@@ -37,11 +37,6 @@ std::string fresh_directory() {
 
 }  // namespace
 
-bool long_form() {
-  const char* asked = getenv("SLIPWAVE_LONG");
-  return asked && *asked && std::string(asked) != "0";
-}
-
 Shell::Shell() : directory_(fresh_directory()) {
   fs::create_directory(directory_ + "/work");
   directory_ += "/work";

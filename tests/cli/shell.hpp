@@ -5,15 +5,14 @@
 
 #include <string>
 
+#include "long_form.hpp"
+
 /// What a command line left behind.
 struct Ran {
   int code = 0;  // of bash with pipefail: of the last command that failed; 128 + N when a signal ended it
   std::string out, err;
   double peak_mib = 0;  // resident memory of the largest process
 };
-
-/// Whether SLIPWAVE_LONG asks for the long form.
-bool long_form();
 
 /// A test that runs shell lines in a fresh temporary directory, removed afterwards, with the tools of this
 /// build first on PATH. The name of a file in a line is relative to that directory. A line may use

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <set>
 
+#include "long_form.hpp"
 #include "segy/reader.hpp"
 #include "segy_shared.hpp"
 #include "segy_target.hpp"
@@ -23,7 +23,7 @@ constexpr bool sanitized = __has_feature(address_sanitizer);
 constexpr bool sanitized = false;
 #endif
 
-const bool whole = std::getenv("SLIPWAVE_LONG") != nullptr;
+const bool whole = slipwave::long_form();
 
 extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=64:quarantine_size_mb=16"; }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drawn_scene.hpp"
+#include "long_form.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace slipwave::solver {
 
@@ -14,8 +14,7 @@ Rock Draw::rock(double cells) {
 
 std::vector<unsigned> seeds(unsigned in_short_form, unsigned in_long_form) {
   std::vector<unsigned> all;
-  const char* const asked = std::getenv("SLIPWAVE_LONG");
-  for (unsigned n = 1; n <= (asked && *asked ? in_long_form : in_short_form); ++n) all.push_back(n);
+  for (unsigned n = 1; n <= (long_form() ? in_long_form : in_short_form); ++n) all.push_back(n);
   return all;
 }
 

@@ -2,18 +2,12 @@
 #include "lab.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
 
 namespace slipwave {
-
-bool long_form() {
-  const char* asked = std::getenv("SLIPWAVE_LONG");
-  return asked && *asked && std::string(asked) != "0";
-}
 
 std::vector<int> orders_tried() {
   return long_form() ? std::vector<int>(std::begin(orders), std::end(orders)) : std::vector<int>{3, 5, 11};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "falling_energy.hpp"
+#include "long_form.hpp"
 #include "media.hpp"
 #include "parallel/threads.hpp"
 #include "rock/anisotropy.hpp"
@@ -26,9 +27,6 @@
 #include "sponge.hpp"
 
 namespace slipwave {
-
-/// Whether SLIPWAVE_LONG asks for the long form.
-bool long_form();
 
 /// Of a list of cases the short form takes each third from `first` on. Suites that go through the same list
 /// begin at different ones: together they have all of it.

@@ -13,6 +13,7 @@
 #include "geology/layers.hpp"
 #include "geology/marmousi.hpp"
 #include "io/input_bytes.hpp"
+#include "long_form.hpp"
 
 namespace slipwave::model_likeness_test {
 
@@ -162,7 +163,7 @@ class MarmousiLikeness : public ::testing::Test {
     };
     real_ = rocks_of({read("vp"), read("vs"), read("rho")});
     print("real", real_);
-    for (std::uint64_t seed = 1; seed <= (std::getenv("SLIPWAVE_LONG") ? 6 : 3); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (long_form() ? 6 : 3); ++seed) {
       MarmousiSettings settings;
       settings.seed = seed, settings.water_m = 440;
       drawn_.push_back(rocks_of(marmousi_medium(grid, settings)));

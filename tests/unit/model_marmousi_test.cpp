@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "geology/layers.hpp"
+#include "long_form.hpp"
 #include "model_cases.hpp"
 #include "parallel/threads.hpp"
 
@@ -90,7 +91,7 @@ TEST(Marmousi, IsAnotherGeologyForEverySeed) {
 }
 
 TEST(Marmousi, IsPhysicalForManySeedsAndSizes) {
-  for (std::uint64_t seed = 0; seed < (std::getenv("SLIPWAVE_LONG") ? 40 : 12); ++seed) {
+  for (std::uint64_t seed = 0; seed < (long_form() ? 40 : 12); ++seed) {
     Model<2> model;
     model.medium = medium_of(20000, 6000, 100, seed);
     EXPECT_NO_THROW(check(model)) << seed;

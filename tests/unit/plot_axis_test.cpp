@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <string>
 
+#include "long_form.hpp"
 #include "plot/axis.hpp"
 #include "plot/canvas.hpp"
 #include "plot/ticks.hpp"
@@ -112,7 +112,7 @@ TEST(PlotAxis, LogTicksAreDecadesOrRoundPartsOfThem) {
 TEST(PlotAxis, LabelsNeverTouchEachOther) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> exponent(-10, 8), length(25, 600), size(5, 12);
-  for (int trial = 0; trial < (std::getenv("SLIPWAVE_LONG") ? 1000 : 300); ++trial) {
+  for (int trial = 0; trial < (long_form() ? 1000 : 300); ++trial) {
     Axis axis{"a", "", -std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random))};
     axis.log = trial % 3 == 0;
     if (axis.log) axis.low = axis.high * 1e-4;

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <string>
 
 #include "base/error.hpp"
+#include "long_form.hpp"
 #include "plot/error_picture.hpp"
 #include "plot/gather_picture.hpp"
 #include "plot/model_picture.hpp"
@@ -159,7 +159,7 @@ TEST(PlotLayout, NothingIsClippedAndNoTextsOverlap) {
       ++turn;
       for (std::size_t n = 0; n < titles.size(); ++n) {
         // In the short form each kind has one title in each size, and each size all titles in turn.
-        if (!std::getenv("SLIPWAVE_LONG") && (n + turn + turn / 6) % 3 != 0) continue;
+        if (!long_form() && (n + turn + turn / 6) % 3 != 0) continue;
         const Page page = coarse_page(size, titles[n]);
         SCOPED_TRACE(name);
         expect_in_order(draw(page), page, name + " " + size + " " + titles[n].substr(0, 5));

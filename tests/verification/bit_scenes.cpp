@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bit_scenes.hpp"
 
-#include <cstdlib>
 #include <random>
 
 #include "fitted_scenes.hpp"
 #include "grid/locate.hpp"
+#include "long_form.hpp"
 #include "model/fracture.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/single_fracture.hpp"
@@ -18,8 +18,6 @@ using enum EdgeLaw;
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, brine{2000, 0, 1300}, soft{2500, 1200, 2000},
     nothing{0, 0, 0};
 const double mu = rock.mu();
-
-bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
 /// Calls of(cell) for every cell of a medium and puts the rock there that it returns.
 template <int D, class Of>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "cube_shot.hpp"
+#include "long_form.hpp"
 
 // A point source in a full space against Stokes' solution (1849; Aki & Richards 2002, eq. 4.23 and 4.29).
 // Planes of symmetry stand for most of the space: a source on a mirror is one of twice its strength in the
@@ -115,7 +114,7 @@ TEST(CubeFullSpace, NearFieldOfAnExplosionStandsTenCellsAway) {
 // Proves (E3).
 TEST(CubeFullSpace, ForcesAlongAllAxesMoveTheRockAsInTheClosedForm) {
   const char* const forces[] = {"force:1,0,0", "force:0,1,0", "force:0,0,1"};
-  const bool all = std::getenv("SLIPWAVE_LONG") != nullptr;
+  const bool all = long_form();
   for (int axis = all ? 0 : 1; axis < (all ? 3 : 2); ++axis) {
     const std::int64_t n = 40;
     Index<3> shape = {n, n, n};

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "anisotropic_stack.hpp"
 #include "complex_system.hpp"
 #include "lab.hpp"
+#include "long_form.hpp"
 #include "model/effective_medium.hpp"
 #include "solver/simulation.hpp"
 
@@ -109,7 +109,7 @@ TEST(EffectiveMedium, HasTheTracesOfItsClosedFormAndSoHaveSprings) {
   for (const auto& all : {std::vector{level}, std::vector{upright}, std::vector{level, upright}}) {
     SCOPED_TRACE(all.size() == 2 ? "both" : all[0].normal[0] == 0 ? "level" : "upright");
     EXPECT_LT(error_of_medium(5, all), 0.01);
-    if (all.size() < 2 && !std::getenv("SLIPWAVE_LONG")) continue;
+    if (all.size() < 2 && !long_form()) continue;
     EXPECT_LT(error_of_springs(2.5, all), 0.025);
   }
 }
@@ -172,7 +172,7 @@ TEST(EffectiveMedium, OfTiltedRockIsThatOfSpringsAskewInIt) {
   for (const auto& springs : {std::vector{askew}, std::vector{askew, steep}}) {
     const double coarse = error_in(5, springs);
     EXPECT_LT(coarse, 0.08) << springs.size();
-    if (!std::getenv("SLIPWAVE_LONG")) continue;
+    if (!long_form()) continue;
     const double fine = error_in(2.5, springs);
     EXPECT_LT(fine, 0.02) << springs.size();
     EXPECT_GT(observed_order(coarse, fine), 1.5) << springs.size();

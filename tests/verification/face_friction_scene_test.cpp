@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "build/resample.hpp"
+#include "long_form.hpp"
 #include "model/fracture.hpp"
 #include "scene_of_faces.hpp"
 #include "slip_layer.hpp"
@@ -183,7 +184,7 @@ TEST(FaceFriction, IsWhatARowOfCellsComesNearAsTheyGetSmall) {
   const double most = largest_traction();
   for (const auto& [share, drag] : {std::pair{0.1, 1.}, {0.25, 3.}}) {
     // The short form has the other drag with strength that falls.
-    if (drag > 1 && !std::getenv("SLIPWAVE_LONG")) continue;
+    if (drag > 1 && !long_form()) continue;
     SCOPED_TRACE(share);
     expect_row_near({share * most, drag});
   }

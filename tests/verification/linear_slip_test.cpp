@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "lab.hpp"
+#include "long_form.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/linear_slip.hpp"
 #include "whole_effect.hpp"
@@ -243,7 +244,7 @@ struct Case {
 // Proves (S25).
 TEST(SpringRow, ReflectsAndTransmitsAsSchoenbergsInterface) {
   std::vector<Case> cases = {{false, 30, 40}, {true, 60, 40}};
-  if (std::getenv("SLIPWAVE_LONG")) {
+  if (long_form()) {
     cases.clear();
     for (const bool of_s : {false, true})
       for (const double hz : {10., 20., 30., 60.})

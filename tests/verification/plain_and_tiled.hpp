@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cube.hpp"
+#include "long_form.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -76,10 +76,9 @@ Outcome plain_outcome_of(Scene<D> scene) {
 template <int D>
 void expect_same_in_tiles(Scene<D> scene, const Outcome& plain,
                           const std::vector<std::pair<Tiling, int>>& kinds) {
-  const bool long_form = std::getenv("SLIPWAVE_LONG") != nullptr;
   for (const auto& [tiling, of_threads] : kinds)
     for (const int threads : {1, 3}) {
-      if (threads != of_threads && !long_form) continue;
+      if (threads != of_threads && !long_form()) continue;
       const ThreadLimit limit(threads);
       scene.numerics.tiling = tiling;
       SCOPED_TRACE(std::to_string(tiling.steps) + " steps, " + std::to_string(tiling.stripe_cells) +
@@ -91,7 +90,7 @@ void expect_same_in_tiles(Scene<D> scene, const Outcome& plain,
 template <int D>
 void expect_same(const Scene<D>& scene) {
   std::vector<std::pair<Tiling, int>> kinds = {{{2, D == 2 ? 48 : 4, true}, 1}, {{3, D == 2 ? 16 : 5}, 3}};
-  if (std::getenv("SLIPWAVE_LONG")) kinds.push_back({{}, 3});
+  if (long_form()) kinds.push_back({{}, 3});
   expect_same_in_tiles(scene, plain_outcome_of(scene), kinds);
 }
 

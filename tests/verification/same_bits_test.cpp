@@ -3,6 +3,7 @@
 // entry of the time step on the whole grid, by any number of threads, and in pieces.
 #include "bit_scenes.hpp"
 #include "continued.hpp"
+#include "long_form.hpp"
 #include "plain_and_tiled.hpp"
 
 namespace slipwave::solver::same_bits_test {
@@ -16,7 +17,7 @@ TEST_P(SameBits, InTilesPlainlyAndInPieces) {
     const auto plain = plain_outcome_of(scene);
     // Those of pieces are other ones, of all widths.
     std::vector<std::pair<Tiling, int>> kinds = {{{}, 3}};
-    if (std::getenv("SLIPWAVE_LONG")) kinds.push_back({{2, D == 2 ? 48 : 7, true}, 1});
+    if (long_form()) kinds.push_back({{2, D == 2 ? 48 : 7, true}, 1});
     expect_same_in_tiles(scene, plain, kinds);
     expect_same_in_pieces(scene, plain);
     if (auto without = scene; remove_effect_of(without)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/instantiate.hpp"
+#include "solver/sweep/interface_stencils.hpp"
 
 namespace slipwave::solver {
 namespace {

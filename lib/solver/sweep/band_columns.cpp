@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "base/instantiate.hpp"
-#include "solver/sweep/interface_stencils.hpp"
 
 namespace slipwave::solver {
 namespace {

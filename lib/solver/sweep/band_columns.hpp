@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/edges.hpp"
 #include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
