@@ -2,49 +2,89 @@
 #include "solver/kernels/kernels.hpp"
 
 #include <cassert>
-#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "solver/kernels/kernel_tables.hpp"
 
 namespace slipwave::solver {
 
-#if defined(__x86_64__)
-const KernelTables<float>& kernels_x86_64_v3(float);
-const KernelTables<double>& kernels_x86_64_v3(double);
+// CMake says for which instruction sets kernels_level.cpp was compiled.
+#ifdef SLIPWAVE_HAS_KERNELS_x86_64_v4
 const KernelTables<float>& kernels_x86_64_v4(float);
 const KernelTables<double>& kernels_x86_64_v4(double);
 #endif
+#ifdef SLIPWAVE_HAS_KERNELS_x86_64_v3
+const KernelTables<float>& kernels_x86_64_v3(float);
+const KernelTables<double>& kernels_x86_64_v3(double);
+#endif
+#ifdef SLIPWAVE_HAS_KERNELS_generic
 const KernelTables<float>& kernels_generic(float);
 const KernelTables<double>& kernels_generic(double);
-
-const char* instruction_set() {
-#if defined(__x86_64__)
-  // Before AVX2 vectors are those of every such processor: the generic kernels serve as well.
-  const bool v3 =
-      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                  __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                  __builtin_cpu_supports("avx512vl");
-  return v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : "generic";
-#else
-  return "generic";
 #endif
-}
 
 namespace {
 
+/// An instruction set and the kernels that were compiled for it.
+struct Level {
+  const char* name;
+  const KernelTables<float>& (*tables_float)(float);
+  const KernelTables<double>& (*tables_double)(double);
+
+  const KernelTables<float>& tables(float of) const { return tables_float(of); }
+  const KernelTables<double>& tables(double of) const { return tables_double(of); }
+};
+
+/// The instruction sets that this build has kernels for, the best first.
+const std::vector<Level>& levels() {
+  static const std::vector<Level> all = {
+#ifdef SLIPWAVE_HAS_KERNELS_x86_64_v4
+      {"x86-64-v4", kernels_x86_64_v4, kernels_x86_64_v4},
+#endif
+#ifdef SLIPWAVE_HAS_KERNELS_x86_64_v3
+      {"x86-64-v3", kernels_x86_64_v3, kernels_x86_64_v3},
+#endif
+#ifdef SLIPWAVE_HAS_KERNELS_generic
+      {"generic", kernels_generic, kernels_generic},
+#endif
+  };
+  return all;
+}
+
+/// Whether this processor has an instruction set. Before AVX2 vectors are those of every such processor: the
+/// generic kernels serve as well.
+bool processor_has([[maybe_unused]] std::string_view level) {
+#if defined(__x86_64__)
+  const bool v3 =
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  if (level == "x86-64-v3") return v3;
+  if (level == "x86-64-v4")
+    return v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
+#endif
+  return true;
+}
+
+/// The best level that this processor has. Throws Error where it has none of those of this build.
+const Level& best_level() {
+  for (const auto& level : levels())
+    if (processor_has(level.name)) return level;
+  throw Error(std::string("this build is for processors with the instruction set ") + levels().back().name +
+              " (AVX-512 is v4, AVX2 v3), which this one lacks: configure it with -DSLIPWAVE_KERNELS=all");
+}
+
 template <class Real>
 const KernelTables<Real>& best_tables() {
-#if defined(__x86_64__)
-  const char* level = instruction_set();
-  if (!std::strcmp(level, "x86-64-v4")) return kernels_x86_64_v4(Real());
-  if (!std::strcmp(level, "x86-64-v3")) return kernels_x86_64_v3(Real());
-#endif
-  return kernels_generic(Real());
+  return best_level().tables(Real());
 }
 
 }  // namespace
+
+const char* instruction_set() { return best_level().name; }
 
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform) {

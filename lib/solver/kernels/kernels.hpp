@@ -245,7 +245,8 @@ using InterpolationKernel = void (*)(std::int64_t n, const float* samples, std::
                                      double step, std::int64_t first, Real* to);
 
 /// Kernels of that order for the best instruction set of this processor. `uniform`: those for
-/// uniform runs, of which only the material of the first cell is read; they give the same bits.
+/// uniform runs, of which only the material of the first cell is read; they give the same bits. Throws Error,
+/// as all of these do, where this build has none that this processor can run.
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform);
 template <class Real>
