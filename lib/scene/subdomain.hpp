@@ -30,7 +30,7 @@ struct Subdomain {
       false;  // whether any part has rock whose axes are turned, in 3-D also any in curvilinear rows
   bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
   bool has_void = false;      // whether any part has void cells
-  /// The askew_sets() of all parts; set with several processes only.
+  /// The askew_sets(); set with several processes only.
   std::vector<std::array<bool, 2>> askew{};
   /// The side_speeds() of the whole model; set in a fitted grid only.
   std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};

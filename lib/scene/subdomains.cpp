@@ -206,7 +206,9 @@ std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
 }
 
 template <int D>
-std::vector<std::array<bool, 2>> askew_sets(const Model<D>& model) {
+std::vector<std::array<bool, 2>> askew_sets(const Scene<D>& scene) {
+  if (!scene.subdomain.askew.empty()) return scene.subdomain.askew;
+  const auto& model = scene.model;
   std::vector<std::array<bool, 2>> askew(model.fracture_sets.size());
   if (anisotropic_cells(model.medium) == 0) return askew;
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
@@ -232,7 +234,7 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
 
 template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
-  scene.subdomain.askew = askew_sets(scene.model);
+  scene.subdomain.askew = askew_sets(scene);
   for (auto& kinds : scene.subdomain.askew)
     for (bool& any : kinds) any = largest_of(&ranks, any ? 1 : 0) > 0;
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));

@@ -31,10 +31,10 @@ bool has_void(const Medium<D>& medium);
 template <int D>
 bool couples_pairs(const Medium<D>& medium, int order);
 
-/// Returns for each set of fractures whether its planes lie askew (lie_askew()) in any whole cell of a model,
-/// and in any that its edge cuts.
+/// Returns for each set of fractures whether its planes lie askew (lie_askew()) in any whole cell of any part
+/// of the model, and in any that its edge cuts.
 template <int D>
-std::vector<std::array<bool, 2>> askew_sets(const Model<D>& model);
+std::vector<std::array<bool, 2>> askew_sets(const Scene<D>& scene);
 
 /// Rows first <= row < last of a medium, counted from its first one, as a part of its grid.
 template <int D>

@@ -12,6 +12,7 @@
 #include "model/cluster_edge.hpp"
 #include "model/single_fracture.hpp"
 #include "rock/anisotropy.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -92,21 +93,6 @@ Tensor<D> strain_of(const Tensor<D>& stress, const Rock<D>& of) {
 template <int D>
 double modulus_across(const Point<D>& normal, const Elasticity<D>& rock) {
   return std::abs(normal[D - 1]) > 0.5 ? rock(3, 3) : rock(1, 1);
-}
-
-/// Whether planes of a set may lie askew in the rock of some cell of the model, of any process: then strains
-/// across them and along them are not independent.
-template <int D>
-bool may_lie_askew(const FractureSet<D>& set, const Domain<D>& domain, const Scene<D>& scene) {
-  if (!domain.anisotropic()) return false;
-  const auto any = [&](const auto& has) { return std::any_of(set.systems.begin(), set.systems.end(), has); };
-  if constexpr (D == 2)
-    return scene.subdomain.tilted || any_tilted_axes(scene.model.medium) ||
-           any([](const auto& system) { return is_oblique<D>(system.normal); });
-  // All processes have the same properties, whatever their values.
-  const auto has = [&](Property of) { return scene.model.medium.has(of); };
-  return has(Property::epsilon1) || has(Property::tilt) || has(Property::azimuth) || has(Property::c33) ||
-         any([](const auto& system) { return !is_level<D>(system.normal); });
 }
 
 /// Strain of the planes of all families under a stress, dashpots at rest.
@@ -199,27 +185,29 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
       model_(scene.model),
       unit_(unit),
       ahead_(scene.numerics.correction == SlipCorrection::first ? Real(0) : Real(0.5)) {
+  const auto askew = askew_sets(scene);
   for (std::size_t number = 0; number < model_.fracture_sets.size(); ++number) {
     const auto& set = model_.fracture_sets[number];
     if (!gives(set) || set.on_faces) continue;
     for (const auto kind : {CellKind::whole, CellKind::cut})
       if (kind == CellKind::whole || (!model_.fracture_share.empty() && set.traces.empty()))
-        add(set, scene, FractureCells<D>(state.layout, domain, model_, number, kind), kind, dt_s);
+        add(set, FractureCells<D>(state.layout, domain, model_, number, kind), kind,
+            askew[number][kind == CellKind::cut], dt_s);
   }
 }
 
 template <int D, class Real>
-void LinearSlip<D, Real>::add(const FractureSet<D>& set, const Scene<D>& scene, FractureCells<D> cells,
-                              CellKind kind, double dt_s) {
+void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells, CellKind kind, bool askew,
+                              double dt_s) {
   if (cells.cells() == 0) return;
   Group group{std::move(cells), &set, {}, {}, {}, {}, {}};
   const auto any = [&](const auto& has) { return std::any_of(set.systems.begin(), set.systems.end(), has); };
   group.of = {D, set.systems.size() == 1 && set.traces.empty(),
               any([](const auto& s) { return s.compliance.damped(); }),
               any([](const auto& s) { return s.slides(); })};
-  // The rest of a cell holds springs of its part in all directions.
-  if (kind == CellKind::cut && !group.of.damped && !group.of.slides) group.of.one_family = false;
-  if (!group.of.damped && !group.of.slides && may_lie_askew(set, domain_, scene)) group.of.one_family = false;
+  // The rest of a cell holds springs of its part in all directions; and strains across planes askew and along
+  // them are not independent.
+  if ((kind == CellKind::cut || askew) && !group.of.damped && !group.of.slides) group.of.one_family = false;
   group.planes = planes_of<D, Real>(set.systems, unit_);
   group.kernels = linear_slip_kernels<Real>(group.of);
   group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);

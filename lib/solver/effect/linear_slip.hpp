@@ -56,8 +56,7 @@ class LinearSlip : public Effect<D, Real> {
     LinearSlipKernels<Real> kernels;
     std::vector<Real> memory, coefficients;  // rows of all stored cells, one after the other
   };
-  void add(const FractureSet<D>& set, const Scene<D>& scene, FractureCells<D> cells, CellKind kind,
-           double dt_s);
+  void add(const FractureSet<D>& set, FractureCells<D> cells, CellKind kind, bool askew, double dt_s);
   void add_family(Group& group, double dt_s) const;
   void add_crossing(Group& group) const;
   void add_single(Group& group) const;

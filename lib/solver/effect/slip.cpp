@@ -13,8 +13,7 @@ template <int D, class Real>
 Slip<D, Real>::Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
                     double unit)
     : state_(state), domain_(domain), dt_s_(dt_s), unit_(unit), correction_(scene.numerics.correction) {
-  const auto& of_all = scene.subdomain.askew;
-  const auto askew = of_all.empty() ? askew_sets(scene.model) : of_all;
+  const auto askew = askew_sets(scene);
   for (std::size_t set = 0; set < scene.model.fracture_sets.size(); ++set) {
     if (!slides(scene.model.fracture_sets[set])) continue;
     for (const auto kind : {CellKind::whole, CellKind::cut}) {
