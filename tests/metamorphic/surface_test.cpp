@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "drawn_scene.hpp"
 #include "fitted_medium.hpp"
@@ -139,6 +140,40 @@ TEST(SameGround, InStepsTurnedByARightAngleGivesTheSameTraces) {
     scene.numerics.cfl /= 2, turned.numerics.cfl /= 2;
     const double half = difference(traces_of(turned), traces_of(scene));
     EXPECT_GT(std::log2(whole / half), 0.5) << "seed " << seed << ": " << whole << ", " << half;
+  }
+}
+
+/// What differs between a floor of water over rock and the same turned upright, which sweeps pass in another
+/// order, with so many cells in the shortest wave.
+double of_turned_floor(unsigned seed, double cells) {
+  Draw draw(seed);
+  const double rho = draw.between(1800, 2400), ratio = draw.between(1.6, 2.2);
+  const Rock water{draw.between(1.05, 1.3) * 100 * cells, 0, 1000};
+  const Rock rock{ratio * 100 * cells, 100 * cells, rho};
+  const double size = cells / 20, floor = std::round(45 * size);
+  const auto n = std::int64_t(std::round(110 * size));
+  std::vector<std::vector<double>> found;
+  for (const bool upright : {false, true}) {
+    auto scene =
+        scene_of(n, n, [&](auto i, auto k) { return double(upright ? i : k) < floor ? water : rock; });
+    const auto place = [&](double along, double off) {
+      const double down = floor + off * size;
+      along *= size;
+      return upright ? Point<2>{down, along} : Point<2>{along, down};
+    };
+    shoot_from(scene, place(25.3, -6.2), "explosion", {place(60, 0), place(75.4, 3), place(85, -4)});
+    if (upright) scene.recording.components = {Component::vx, Component::vz};
+    found.push_back(traces_of(scene));
+  }
+  return difference(found[1], found[0]);
+}
+
+// Proves (E11a).
+TEST(SameGround, BelowWaterTurnedByARightAngleDiffersToSecondOrder) {
+  for (const unsigned seed : seeds()) {
+    const double coarse = of_turned_floor(seed, 20), fine = of_turned_floor(seed, 40);
+    EXPECT_LT(coarse, 0.01) << "seed " << seed;
+    EXPECT_GT(std::log2(coarse / fine), 1.7) << "seed " << seed << ": " << coarse << ", " << fine;
   }
 }
 

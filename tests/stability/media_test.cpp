@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <tuple>
 
 #include "lab.hpp"
@@ -89,6 +90,34 @@ TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
         Lab<double> lab(setup);
         lab.expect_fall_in_the_long_run(10000);
       }
+}
+
+/// Water in rock of 40 x 40 cells: beside an upright wall, and in a cave of 20 x 20.
+Medium<2> water_in_rock(bool cave, const Material& rock_round_it) {
+  return of_rocks(40, [&](int i, int k) {
+    const bool wet = cave ? std::min({i, k, 39 - i, 39 - k}) >= 10 : i < 20;
+    return wet ? Material{1500, 0, 1000} : rock_round_it;
+  });
+}
+
+// Proves (E11a).
+TEST(Energy, OfWaterBesideUprightWallsAndInCavesFallsInTheLongRun) {
+  const ThreadLimit one_thread(1);
+  std::size_t turn = 0;
+  for (const bool cave : {false, true})
+    for (const Material& round_it : {Material{4500, 2250, 2500}, Material{1900, 500, 1900}}) {
+      if (!long_form() && cave != (round_it.vs < 1000)) continue;
+      for (const auto& [order, cfl] : share_of_pairs<int, double>({5, 7, 11}, {0.3, 0.9, 1.}, turn++)) {
+        SCOPED_TRACE("order " + std::to_string(order) + " cfl " + std::to_string(cfl) +
+                     (cave ? " cave" : " wall") + " vp " + std::to_string(round_it.vp));
+        Lab<double>::Setup setup;
+        setup.medium = water_in_rock(cave, round_it);
+        setup.order = order;
+        setup.cfl = cfl;
+        Lab<double>(setup).expect_fall_in_the_long_run(long_form() ? 20000 : 2000, rounding<double>(),
+                                                       gain_of_interfaces);
+      }
+    }
 }
 
 // Proves (E11a).

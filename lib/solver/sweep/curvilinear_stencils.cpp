@@ -156,7 +156,7 @@ SmallMatrix<std::size_t(D)> share_at(const Domain<D>& domain, const Index<D>& be
   if (domain.anisotropic() &&
       (anisotropic_across_rows(domain, before) || anisotropic_across_rows(domain, behind))) {
     const auto impedance = [&](const Index<D>& at) {
-      return impedance_across_rows<D>(elasticity_at(domain, at), normal_in_grid<D>(normal));
+      return impedance_across<D>(elasticity_at(domain, at), normal_in_grid<D>(normal));
     };
     const auto other = impedance(behind);
     return product_of(inverse_of(sum_of(impedance(before), other, 1.)), other);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "base/band_system.hpp"
 #include "solver/kernels/reconstruction.hpp"
@@ -52,30 +53,25 @@ class Column {
   double& off(int n) { return n < 2 * rows ? v(n - rows) : s(n - 3 * rows); }
   bool any(int n) const { return !empty(n % (2 * rows) - rows); }
 
-  /// A whole step, from the middle of what runs along its first axis.
+  /// A whole step, from the middle of what runs along its first axis; where sweeps across end a step, from
+  /// before the last one, which the first one of the next step is made together with.
   void step() {
     const int along = of_->axis == 0 ? of_->of_step[1].axis : 0;
-    for (const auto& sweep : of_->of_step) {
-      if (sweep.axis == of_->axis)
-        across(sweep.fraction);
-      else if (sweep.axis == along)
-        take_away(sweep.fraction);
+    double together = part_recorded(*of_);
+    const auto last = of_->of_step.end() - (together == 0 ? 0 : 1);
+    for (auto sweep = of_->of_step.begin(); sweep != last; ++sweep) {
+      if (sweep->axis == of_->axis)
+        across(sweep->fraction + std::exchange(together, 0));
+      else if (sweep->axis == along)
+        take_away(sweep->fraction);
     }
   }
-
- private:
-  static std::size_t side(int n) { return n < 0 ? 0 : 1; }
-  double& v(int n) { return v_[std::size_t(std::int64_t(held_) + n)]; }
-  double& s(int n) { return s_[std::size_t(std::int64_t(held_) + n)]; }
-  double impedance(int n) const { return of_->impedance[side(n)]; }
-  double courant(int n) const { return of_->courant[side(n)]; }
-  bool empty(int n) const { return impedance(n) == 0; }
-
-  /// v and s change with the differences of the other.
-  void add(int n, double fraction, double of_s, double of_v) {
-    v(n) += fraction * courant(n) / impedance(n) * of_s;
-    s(n) += fraction * courant(n) * impedance(n) * of_v;
+  /// The part of a step that the sweep across takes by which records leave the state that step() begins with,
+  /// or 0 where it is recorded itself.
+  static double part_recorded(const SweepsAcross& of) {
+    return of.merges && of.of_step.back().axis == of.axis ? of.of_step.back().fraction : 0;
   }
+  /// What sweeps along the face leave, which cells with the slopes want sweeps across to give back.
   void take_away(double fraction) {
     for (int n = -held_; n < held_; ++n)
       if (!empty(n)) add(n, -fraction, slopes_->s[side(n)], slopes_->v[side(n)]);
@@ -94,6 +90,20 @@ class Column {
     else
       forward(std::abs(fraction), turned);
     turn();
+  }
+
+ private:
+  static std::size_t side(int n) { return n < 0 ? 0 : 1; }
+  double& v(int n) { return v_[std::size_t(std::int64_t(held_) + n)]; }
+  double& s(int n) { return s_[std::size_t(std::int64_t(held_) + n)]; }
+  double impedance(int n) const { return of_->impedance[side(n)]; }
+  double courant(int n) const { return of_->courant[side(n)]; }
+  bool empty(int n) const { return impedance(n) == 0; }
+
+  /// v and s change with the differences of the other.
+  void add(int n, double fraction, double of_s, double of_v) {
+    v(n) += fraction * courant(n) / impedance(n) * of_s;
+    s(n) += fraction * courant(n) * impedance(n) * of_v;
   }
   /// Cells with the slopes, those of v times `turned`, keep them.
   void forward(double fraction, double turned) {
@@ -189,7 +199,10 @@ class Column {
 PairBeside<std::vector<double>> found_errors(const SweepsAcross& of, const PairBeside<double>& slopes,
                                              const std::array<double, 2>& known) {
   AdjointSweeps adjoint;
-  Column exact(of, slopes, known, adjoint);
+  Column recorded(of, slopes, known, adjoint);
+  const double part = Column::part_recorded(of);
+  auto exact = recorded;
+  if (part != 0) exact.take_away(part);
   auto stepped = exact;
   stepped.step();
   BandSystem<unknowns> equations(unknowns);
@@ -205,12 +218,18 @@ PairBeside<std::vector<double>> found_errors(const SweepsAcross& of, const PairB
     equations.right(column) = stepped.off(n) - exact.off(n);
   }
   const auto found = equations.solve();
+  auto lies_off = exact;
+  for (int n = 0; n < unknowns; ++n) lies_off.off(n) += found[std::size_t(n)].real();
+  if (part != 0) lies_off.across(part);
+  const auto error = [&](int n) {
+    return part == 0 ? found[std::size_t(n)].real() : lies_off.off(n) - recorded.off(n);
+  };
   PairBeside<std::vector<double>> errors;
   for (int n = 0; n < rows; ++n)
     for (const std::size_t side : {0, 1}) {
-      const auto at = std::size_t(side == 0 ? rows - 1 - n : rows + n);
-      errors.v[side].push_back(found[at].real());
-      errors.s[side].push_back(found[at + 2 * std::size_t(rows)].real());
+      const int at = side == 0 ? rows - 1 - n : rows + n;
+      errors.v[side].push_back(error(at));
+      errors.s[side].push_back(error(at + 2 * rows));
     }
   return errors;
 }

@@ -15,6 +15,8 @@ struct SweepsAcross {
   std::array<double, 2> courant{};    // of the wave in a whole step
   int axis = 0;
   std::vector<SweepFraction> of_step{};
+  bool merges =
+      false;  // two sweeps along the first axis that follow each other, as they do where no force acts
   bool adjoint = false;  // of the step that forces answer to, adjoint in the energy and run back in time
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solver/kernels/curvilinear_formulas.hpp"
@@ -16,33 +17,37 @@ namespace slipwave::solver {
 /// one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
 inline constexpr double traction_share = 0.5;
 
-/// Whether extensions across the face before a cell along z are corrected (InterfaceCorrections).
+/// Whether extensions across the face before a cell along an axis are corrected (InterfaceCorrections).
 template <int D>
-bool corrects_interface(const Domain<D>& domain, const Index<D>& below);
+bool corrects_interface(const Domain<D>& domain, const Index<D>& behind, int axis);
 
-/// Corrections of the extensions across interfaces inside the grid that follow a row of faces (theory.md
+/// Corrections of the extensions across interfaces inside the grid, in sweeps along one axis (theory.md
 /// (E11a)): in solids and fluids that touch, velocities bend with what happens along the interface, and
 /// sweeps along it leave tractions on both sides that differ when a sweep across begins. By place ("slot") of
-/// the interface; components as those of a sweep along z: z, x, in 3-D y.
+/// the interface; components as those of the pairs of the sweep.
 template <int D, class Real>
 class InterfaceCorrections {
  public:
   InterfaceCorrections() = default;
-  InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric);
+  InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric,
+                       int axis);
 
   bool empty() const { return slots_.empty(); }
   std::int64_t memory_bytes() const {
-    return bytes_of(slots_) + bytes_of(matrices_) + bytes_of(first_) + bytes_of(velocities_) +
-           bytes_of(tractions_);
+    return bytes_of(slots_) + bytes_of(matrices_) + bytes_of(velocities_) + bytes_of(tractions_) +
+           bytes_of(held_) + bytes_of(retained_);
   }
-  /// Slot of the face between a cell and the one before it along z, or `none` where nothing is corrected.
-  std::int32_t slot(const Index<D>& below_face) const;
+  /// Slot of the face between a cell and the one before it along the axis, or `none` where nothing is
+  /// corrected.
+  std::int32_t slot(const Index<D>& behind) const;
   static constexpr std::int32_t none = -1;
 
-  /// Computes the corrections of the face before this row in these columns (in 3-D cells of a plane, padded)
-  /// from velocities as they are before the sweep, up to free_surface_reach cells beside them.
-  void update(const State<D, Real>& state, std::int64_t row, const IndexRange& columns);
-  void update_all(const State<D, Real>& state);
+  /// Copies the velocities beside the faces before cells of this line in these columns as they are now,
+  /// across another axis than the last: update() reads the copy, since sweeps change line after line.
+  void retain(const State<D, Real>& state, std::int64_t line, const IndexRange& columns);
+  /// Computes the corrections of the faces before cells in these columns of lines that follow each other,
+  /// from velocities as they are before the sweep or from the copy, up to free_surface_reach cells beside.
+  void update(const State<D, Real>& state, const IndexRange& lines, const IndexRange& columns);
 
   /// By slot, of a component: what the extension of v gains over 2 j + 1 in ghost j, on both sides; and the
   /// traction beyond the face less that before it, in a sweep over a whole step.
@@ -51,13 +56,13 @@ class InterfaceCorrections {
 
  private:
   static constexpr int lateral = 4 * (D - 1);
-  /// One side of the face: where velocities along it and its b stand.
+  /// One side of the face: where velocities along it, in the fields or the copy, and its b stand.
   struct Side {
-    std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0 of the fields
+    std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0
     std::int64_t b;                                        // of the material
   };
-  /// What the differences along x, in 3-D also y, of the velocities of one side of a face make of its
-  /// corrections (theory.md (F14)); of the traction over b.
+  /// What the differences along the face of the velocities of one side of it make of its corrections
+  /// (theory.md (F14)); of the traction over b.
   static constexpr std::size_t differences = std::size_t(D - 1) * D;
   struct OfSide {
     /// [component][axis, component]
@@ -67,18 +72,34 @@ class InterfaceCorrections {
   };
   using Matrices = std::array<OfSide, 2>;
   struct Slot {
-    std::int64_t row, column;
+    std::int64_t key;       // of the cell behind the face
     std::int32_t matrices;  // their place in matrices_
     std::array<Side, 2> sides;
   };
-  std::size_t first_at(std::size_t row, std::int64_t column) const;
+  /// A face that is retained: its key, and the cell behind it in the fields.
+  struct Held {
+    std::int64_t key, cell;
+  };
+  bool copies() const { return axis_ < D - 1; }
+  std::int64_t key_of(const Index<D>& behind) const {
+    return layout_.line_number(behind) * layout_.padded_nx() + behind[0];
+  }
+  /// The first of these keys of cells in these columns of lines, and the end.
+  template <class Keyed>
+  std::pair<std::size_t, std::size_t> among(const std::vector<Keyed>& list, const IndexRange& lines,
+                                            const IndexRange& columns) const;
+  void hold(const Domain<D>& domain, const std::vector<Index<D>>& corrected);
+  Side side_of(const State<D, Real>& state, const Domain<D>& domain, Index<D> behind, int side) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
-  Matrices matrices_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& below);
+  Point<D> normal_before(const Metric<D, Real>& metric, const Index<D>& behind) const;
+  Matrices matrices_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind) const;
 
-  std::int64_t padded_nx_ = 0;
-  std::vector<Slot> slots_;  // by row, then column
+  int axis_ = D - 1;
+  Layout<D> layout_;
+  std::vector<Slot> slots_;  // by key
   std::vector<Matrices> matrices_;
-  std::vector<std::size_t> first_;  // of each row in slots_, and the end
+  std::vector<Held> held_;      // by key
+  std::vector<Real> retained_;  // [held][before, behind the face][velocity]
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;
 };
 

@@ -225,7 +225,7 @@ class InterfaceErrors {
     const auto& impedance = domain.impedance_of_pair(axis, pair);
     SweepsAcross sweeps{domain.order, {}, {}, axis, splitting(D, domain.steps.time_order)};
     auto &z = sweeps.impedance, &courant = sweeps.courant;
-    sweeps.adjoint = of_force;
+    sweeps.adjoint = of_force, sweeps.merges = !of_force;
     for (const auto n : {0U, 1U}) {
       const auto cell = beside(behind, n);
       z[n] = impedance(cell);
@@ -240,7 +240,7 @@ class InterfaceErrors {
                         (slopes.v[0] + slopes.v[1]) / 2 + off.v[1][0] - off.v[0][0],
                         (slopes.s[0] + slopes.s[1]) / 2 + off.s[1][0] - off.s[0][0]};
     };
-    const bool corrected = !of_force && axis == D - 1 && corrects_interface(domain, behind);
+    const bool corrected = !of_force && corrects_interface(domain, behind, axis);
     const bool welded = z[0] > 0 && z[1] > 0;
     std::array<std::array<double, 3>, 2> of_v{}, of_s{}, of_given{};
     std::array<double, 3> of_traction{}, of_motion{};

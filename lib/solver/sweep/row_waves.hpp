@@ -96,10 +96,11 @@ RowWaves<D> waves_across_rows(const Elasticity<D>& elasticity, const Curvilinear
                               {face(0), face(metric.stride)});
 }
 /// The impedances of a cell across a face with the vector N, for a stiffness times the density (theory.md
-/// (F13)): the root of N.C.N.
+/// (F13)): the root of N.C.N, in the pairs of sweeps along an axis.
 template <int D>
-SmallMatrix<std::size_t(D)> impedance_across_rows(const Elasticity<D>& elasticity, const Point<D>& normal) {
-  return in_pairs<D>(square_root_of(christoffel<D>(elasticity, normal)));
+SmallMatrix<std::size_t(D)> impedance_across(const Elasticity<D>& elasticity, const Point<D>& normal,
+                                             int axis = D - 1) {
+  return in_pairs<D>(square_root_of(christoffel<D>(elasticity, normal)), axis);
 }
 
 /// A wave of such a cell as one pair (v, s) of numbers whose outgoing waves (E6), (E7), with the impedance

@@ -117,6 +117,15 @@ ReachBounds reach_bounds(const Domain<D>& domain, int axis, int reach) {
   return bounds;
 }
 
+template <int D, class Real>
+std::array<InterfaceCorrections<D, Real>, std::size_t(D)> corrections_along_axes(
+    const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric) {
+  std::array<InterfaceCorrections<D, Real>, std::size_t(D)> all;
+  for (int axis = 0; axis < D; ++axis)
+    all[std::size_t(axis)] = InterfaceCorrections<D, Real>(state, domain, metric, axis);
+  return all;
+}
+
 }  // namespace
 
 template <int D, class Real>
@@ -131,8 +140,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       anisotropic_(domain.anisotropic()),
       couples_all_(domain.changes_shear_across()),
       metric_(domain),
-      corrections_(state, domain, metric_),
-      curvilinear_stencils_(domain, reach_, corrections_, metric_) {
+      corrections_(corrections_along_axes(state, domain, metric_)),
+      curvilinear_stencils_(domain, reach_, corrections_[z_axis], metric_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -173,7 +182,7 @@ void Sweeps<D, Real>::find_stencils(const Domain<D>& domain) {
       const SlotBeside<D> slot_beside = [this, axis](Index<D> at, int side) {
         const auto number = beside_void(axis, side).corrected(at);
         at[std::size_t(axis)] += side;
-        return number >= 0 ? of_void(number) : axis == z_axis ? corrections_.slot(at) : -1;
+        return number >= 0 ? of_void(number) : corrections_[axis].slot(at);
       };
       const RisesFrom<D> rises_from = [&domain, axis, meet](const Index<D>& at, int side) {
         return order_rises_from(domain, at, axis, side, meet);
@@ -251,8 +260,9 @@ std::int64_t Sweeps<D, Real>::interface_stencil_cells() const {
 template <int D, class Real>
 std::int64_t Sweeps<D, Real>::memory_bytes() const {
   std::int64_t bytes = curvilinear_stencils_.memory_bytes() + metric_.memory_bytes() +
-                       corrections_.memory_bytes() + anisotropic_cells_.memory_bytes() +
-                       anisotropic_across_.memory_bytes() + bytes_of(plain_lines_);
+                       anisotropic_cells_.memory_bytes() + anisotropic_across_.memory_bytes() +
+                       bytes_of(plain_lines_);
+  for (const auto& of_axis : corrections_) bytes += of_axis.memory_bytes();
   for (const auto* treatment : treatments_) bytes += treatment->memory_bytes();
   for (const auto& of_axis : stencils_)
     for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
@@ -371,8 +381,8 @@ void Sweeps<D, Real>::reconstruct_curvilinear_row(int axis, const Index<D>& line
     curvilinear_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
     anisotropic_across_.reconstruct(number, columns, *kernels_[false], all, metric, material.b, scale,
                                     outgoing);
-    curvilinear_stencils_.correct(order_, number, columns, {all, metric, material, scale}, corrections_,
-                                  anisotropic_across_, outgoing);
+    curvilinear_stencils_.correct(order_, number, columns, {all, metric, material, scale},
+                                  corrections_[z_axis], anisotropic_across_, outgoing);
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
@@ -579,7 +589,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
     work.push_back(make_workspace(widest));
     work.back().time() = time;
   }
-  for (std::int64_t line = 0; line < lines && axis < z_axis && corrects_surface(axis); ++line)
+  for (std::int64_t line = 0; line < lines && axis != z_axis && corrects_surface(axis); ++line)
     retain(axis, line, {0, layout.shape()[0]});
   if (axis == 0) {
     const auto own = own_lines();
@@ -598,7 +608,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (auto& surface : surfaces_[axis])
     surface.update_corrections(state_, {0, std::numeric_limits<std::int64_t>::max()});
-  if (axis == z_axis) corrections_.update_all(state_);
+  corrections_[axis].update(state_, {0, lines}, {0, nx});
   if (axis == z_axis && split_) split_->update_all();
   parallel_for(sheets.count() * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -1145,6 +1155,7 @@ Image<Real> image_of(std::int64_t j, std::int64_t cells, const Mirror<Real>& edg
 template <int D, class Real>
 void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& columns) {
   if (axis == 0 && split_) split_->retain(line, lagging(columns));
+  corrections_[axis].retain(state_, line, axis == 0 ? lagging(columns) : columns);
   for (auto& surface : surfaces_[axis])
     surface.retain(state_, line, axis == 0 && surface.inside() ? lagging(columns) : columns);
 }
@@ -1158,12 +1169,16 @@ void Sweeps<D, Real>::correct(FreeSurface<D, Real>& surface, const IndexRange& l
 template <int D, class Real>
 void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line, const IndexRange& columns) {
   if (split_) split_->update_line(line, lagging(columns));
+  corrections_[0].update(state_, {line, line + 1}, lagging(columns));
   for (auto& surface : surfaces_[0]) correct(surface, {line, line + 1}, lagging(columns));
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_flank_surfaces(std::int64_t plane, const IndexRange& rows) {
   const auto of_plane = state_.layout.shape()[1];
+  const IndexRange whole{0, state_.layout.padded_nx()};
+  corrections_[1].update(
+      state_, {plane * of_plane + rows.first, plane * of_plane + std::min(rows.last, of_plane)}, whole);
   for (auto& surface : surfaces_[1]) {
     IndexRange of{rows.first, std::min(rows.last, of_plane)};
     if (!surface.inside()) {
@@ -1171,25 +1186,22 @@ void Sweeps<D, Real>::correct_flank_surfaces(std::int64_t plane, const IndexRang
       if (edge < rows.first || edge >= rows.last) continue;
       of = surface.side() ? IndexRange{edge - 1, edge} : IndexRange{0, 1};
     }
-    correct(surface, {plane * of_plane + of.first, plane * of_plane + of.last},
-            {0, state_.layout.padded_nx()});
+    correct(surface, {plane * of_plane + of.first, plane * of_plane + of.last}, whole);
   }
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& columns) {
-  const auto cells = D == 2 ? 1 : state_.layout.padded_nx(), rows = state_.layout.shape()[z_axis];
-  corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
-  const auto lines = D == 2 ? 1 : state_.layout.shape()[1];
+  const auto rows = state_.layout.shape()[z_axis], lines = D == 2 ? 1 : state_.layout.shape()[1];
   const IndexRange of_row =
       D == 2 ? IndexRange{0, 1} : IndexRange{columns.first, std::min(columns.last, lines)};
+  const IndexRange cells = D == 2 ? columns : IndexRange{0, state_.layout.padded_nx()};
+  corrections_[z_axis].update(state_, {step * lines + of_row.first, step * lines + of_row.last}, cells);
   for (auto& surface : surfaces_[z_axis]) {
     // Inside of the row before: the one behind it must be as before the sweep, too.
     const auto row = surface.inside() || surface.side() ? step - 1 : 0;
     const bool due = surface.inside() ? row >= 0 && row < rows : step == (surface.side() ? rows : reach_);
-    if (due)
-      correct(surface, {row * lines + of_row.first, row * lines + of_row.last},
-              D == 2 ? columns : IndexRange{0, cells});
+    if (due) correct(surface, {row * lines + of_row.first, row * lines + of_row.last}, cells);
   }
   if (split_) split_->update(step, columns);
 }

@@ -128,7 +128,7 @@ class Sweeps {
   bool corrects_surface(int axis) const {
     return std::any_of(surfaces_[axis].begin(), surfaces_[axis].end(),
                        [](const auto& surface) { return !surface.empty(); }) ||
-           (axis == z_axis && !corrections_.empty()) || (split_ && split_->any(axis));
+           !corrections_[axis].empty() || (split_ && split_->any(axis));
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
@@ -294,11 +294,12 @@ class Sweeps {
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
-  InterfaceCorrections<D, Real> corrections_;
+  std::array<InterfaceCorrections<D, Real>, std::size_t(D)> corrections_;  // [axis]
   /// Returns the corrections of a pair of the sweep along an axis; `whole`: of a whole step.
   PairCorrections<Real> corrections_of(int axis, int pair, bool whole) const {
-    PairCorrections<Real> of{nullptr, nullptr, split_ ? split_->images(pair) : nullptr, {}};
-    if (axis == z_axis) of.v = corrections_.velocity(pair), of.s = corrections_.traction(pair);
+    const auto& interfaces = corrections_[axis];
+    PairCorrections<Real> of{
+        interfaces.velocity(pair), interfaces.traction(pair), split_ ? split_->images(pair) : nullptr, {}};
     for (const std::size_t side : {0, 1}) {
       const auto& surface = beside_void(axis, int(side));
       const auto& tractions = surface.tractions();
