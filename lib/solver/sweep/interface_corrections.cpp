@@ -228,14 +228,19 @@ template <class Keyed>
 std::pair<std::size_t, std::size_t> InterfaceCorrections<D, Real>::among(const std::vector<Keyed>& list,
                                                                          const IndexRange& lines,
                                                                          const IndexRange& columns) const {
-  const auto first_from = [&](std::int64_t line, std::int64_t x) {
-    const auto key = line * layout_.padded_nx() + std::clamp<std::int64_t>(x, 0, layout_.padded_nx());
+  const auto key_at = [&](std::int64_t line, std::int64_t x) {
+    return line * layout_.padded_nx() + std::clamp<std::int64_t>(x, 0, layout_.padded_nx());
+  };
+  const auto first = key_at(lines.first, columns.first), last = key_at(lines.last - 1, columns.last);
+  // Most rows are far from all of them.
+  if (list.empty() || last <= list.front().key || first > list.back().key) return {0, 0};
+  const auto first_from = [&](std::int64_t key) {
     return std::size_t(
         std::lower_bound(list.begin(), list.end(), key,
                          [](const Keyed& one, std::int64_t wanted) { return one.key < wanted; }) -
         list.begin());
   };
-  return {first_from(lines.first, columns.first), first_from(lines.last - 1, columns.last)};
+  return {first_from(first), first_from(last)};
 }
 
 template <int D, class Real>
