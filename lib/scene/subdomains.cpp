@@ -82,6 +82,23 @@ bool has_void(const Medium<D>& medium) {
 }
 
 template <int D>
+bool has_walls(const Medium<D>& medium) {
+  const auto& grid = medium.grid();
+  if (medium.vs.empty()) return false;  // before the model is read
+  const auto plane = grid.size() / grid.shape[D - 1];
+  const auto part = [&](std::int64_t n, std::int64_t other) {
+    return medium.is_solid(std::size_t(n)) != medium.is_solid(std::size_t(other));
+  };
+  for (std::int64_t n = plane; n < grid.size(); ++n) {
+    const auto at = grid.index(n);
+    for (std::int64_t axis = 0, stride = 1; axis + 1 < D; stride *= grid.shape[std::size_t(axis++)])
+      if (at[std::size_t(axis)] > 0 && part(n, n - stride) && part(n - plane, n - plane - stride))
+        return true;
+  }
+  return false;
+}
+
+template <int D>
 std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& medium,
                                                               const Subdomain& part) {
   const auto& grid = medium.grid();
@@ -132,7 +149,10 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene) {
       if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = free_surface_reach;
   for (const auto& set : scene.model.fracture_sets)
     if (set.on_faces) surface_reach[0] = free_surface_reach;
-  if (scene.subdomain.has_void || has_void(scene.model.medium)) surface_reach.fill(free_surface_reach);
+  const auto& known = scene.subdomain;
+  const auto& medium = scene.model.medium;
+  if (known.has_void || known.has_walls || has_void(medium) || has_walls(medium))
+    surface_reach.fill(free_surface_reach);
   const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
                                              reach_of(scene.numerics.order), surface_reach);
   // The first tile of all has one more sweep along x.
@@ -248,6 +268,7 @@ void join(Scene<D>& scene, Ranks& ranks) {
     for (auto& speeds : sides) speeds = allgather(&ranks, speeds);
   scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.has_void = largest_of(&ranks, has_void(scene.model.medium) ? 1 : 0) > 0;
+  scene.subdomain.has_walls = largest_of(&ranks, has_walls(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
@@ -255,6 +276,7 @@ SLIPWAVE_INSTANTIATE_D(FUNCTION, askew_sets);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, any_edge_absorbs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_shear);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_void);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, has_walls);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, couples_pairs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, rows_of);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, side_speeds);

@@ -349,11 +349,13 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
       set_ground(scene, scene.model.grid());
     }
   });
-  // Void anywhere widens it, too.
-  const bool wider = group && largest_of(group, has_void(scene.model.medium) ? 1 : 0) > 0;
+  // Void or a wall of water anywhere widens it, too.
+  const auto anywhere = [&](bool here) { return group && largest_of(group, here ? 1 : 0) > 0; };
+  const bool has_voids = anywhere(has_void(scene.model.medium)),
+             walls = anywhere(has_walls(scene.model.medium));
   collective_try(&all, [&] {
-    if (wider) {
-      scene.subdomain.has_void = true;
+    if (has_voids || walls) {
+      scene.subdomain.has_void = has_voids, scene.subdomain.has_walls = walls;
       read_rows(read_model_grid<D>(file));
     }
     warnings = prepare_model(scene);
