@@ -377,6 +377,18 @@ Scene<2> steps(int order) {
   return scene;
 }
 
+/// An upright sheet of water in rock, from the top to the bottom.
+Scene<2> walls(int order, int time_order) {
+  auto scene = in_one_rock();
+  fill(scene.model.medium, [](const Index<2>& at) { return at[0] >= 60 && at[0] < 80 ? water : rock; });
+  scene.model.fracture = {}, scene.model.fracture_sets = {};
+  scene.survey.sources[0].position_m = {268, 172};
+  scene.survey.receivers_m = {{295, 145}, {303, 190}, {290, 260}};
+  scene.numerics.order = order, scene.numerics.time_order = time_order;
+  scene.numerics.double_precision = time_order == 4;
+  return scene;
+}
+
 BitScenes of_effects() {
   BitScenes all;
   const auto add = [&](const std::string& name, auto make) { all.push_back({name, std::move(make)}); };
@@ -415,6 +427,8 @@ BitScenes of_effects() {
       return scene;
     });
   for (const int order : {3, 7}) add("StepsOrder" + std::to_string(order), [=] { return steps(order); });
+  add("WallsOrder5", [] { return walls(5, 2); });
+  add("WallsOrder7InTime4", [] { return walls(7, 4); });
   add("Intact", [] {
     auto scene = sea();
     scene.model.fracture = {}, scene.model.fracture_sets = {};
@@ -491,6 +505,13 @@ Scene<3> pool() {
   return scene;
 }
 
+/// Water beside rock along x and along y.
+Scene<3> walls_in_space() {
+  auto scene = in_3d(uniform_cube({40, 18, 64}, 5, rock), absorbing, "force:3,1,2");
+  fill(scene.model.medium, [](const Index<3>& at) { return at[0] < 10 || at[1] < 8 ? water : rock; });
+  return scene;
+}
+
 /// A plane wave in layers that comes along none of the axes.
 Scene<3> plane_wave_with_an_azimuth() {
   auto scene = in_3d(uniform_cube({12, 10, 40}, 5, rock), absorbing, "plane-s:20,60");
@@ -512,6 +533,7 @@ BitScenes in_three_dimensions() {
                    {"SpaceFittedInTime4", [] { return fitted(free); }},
                    {"SpaceDiscs", [] { return discs(2); }},
                    {"SpaceFluid", [] { return pool(); }},
+                   {"SpaceWalls", [] { return walls_in_space(); }},
                    {"SpacePlaneWave", [] { return plane_wave_with_an_azimuth(); }}};
   if (long_form()) all.push_back({"SpaceDiscsInTime4", [] { return discs(4); }});
   return all;
