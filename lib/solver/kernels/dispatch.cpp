@@ -2,9 +2,9 @@
 #include "solver/kernels/kernels.hpp"
 
 #include <cassert>
+#include <iterator>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
@@ -39,20 +39,17 @@ struct Level {
 };
 
 /// The instruction sets that this build has kernels for, the best first.
-const std::vector<Level>& levels() {
-  static const std::vector<Level> all = {
+constexpr Level levels[] = {
 #ifdef SLIPWAVE_HAS_KERNELS_x86_64_v4
-      {"x86-64-v4", kernels_x86_64_v4, kernels_x86_64_v4},
+    {"x86-64-v4", kernels_x86_64_v4, kernels_x86_64_v4},
 #endif
 #ifdef SLIPWAVE_HAS_KERNELS_x86_64_v3
-      {"x86-64-v3", kernels_x86_64_v3, kernels_x86_64_v3},
+    {"x86-64-v3", kernels_x86_64_v3, kernels_x86_64_v3},
 #endif
 #ifdef SLIPWAVE_HAS_KERNELS_generic
-      {"generic", kernels_generic, kernels_generic},
+    {"generic", kernels_generic, kernels_generic},
 #endif
-  };
-  return all;
-}
+};
 
 /// Whether this processor has an instruction set. Before AVX2 vectors are those of every such processor: the
 /// generic kernels serve as well.
@@ -71,9 +68,10 @@ bool processor_has([[maybe_unused]] std::string_view level) {
 
 /// The best level that this processor has. Throws Error where it has none of those of this build.
 const Level& best_level() {
-  for (const auto& level : levels())
+  for (const auto& level : levels)
     if (processor_has(level.name)) return level;
-  throw Error(std::string("this build is for processors with the instruction set ") + levels().back().name +
+  throw Error(std::string("this build is for processors with the instruction set ") +
+              std::end(levels)[-1].name +
               " (AVX-512 is v4, AVX2 v3), which this one lacks: configure it with -DSLIPWAVE_KERNELS=all");
 }
 

@@ -20,6 +20,10 @@ struct ByLine {
   bool empty() const { return cells.empty(); }
   const Cell& operator[](std::int64_t n) const { return cells[std::size_t(n)]; }
   void end_line() { first.push_back(std::int64_t(cells.size())); }
+  /// Ends all lines before this one.
+  void end_lines_before(std::int64_t line) {
+    while (std::int64_t(first.size()) <= line) end_line();
+  }
   std::int64_t count(std::int64_t line) const { return end(line) - first[std::size_t(line)]; }
   /// Whether a line holds none.
   bool empty(std::int64_t line) const { return count(line) == 0; }

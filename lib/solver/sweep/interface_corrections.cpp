@@ -2,7 +2,7 @@
 #include "solver/sweep/interface_corrections.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <set>
 
 #include "base/instantiate.hpp"
 #include "scene/edges.hpp"
@@ -97,31 +97,35 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
     const auto matrices = matrices_of(domain, metric, at);
     // Cells along level rows share them.
     if (matrices_.empty() || !(matrices_.back() == matrices)) matrices_.push_back(matrices);
-    slots_.push_back({key_of(at),
-                      std::int32_t(matrices_.size()) - 1,
-                      {side_of(state, domain, at, 0), side_of(state, domain, at, 1)}});
+    slots_.end_lines_before(layout_.line_number(at));
+    slots_.cells.push_back({at[0],
+                            std::int32_t(matrices_.size()) - 1,
+                            {side_of(state, domain, at, 0), side_of(state, domain, at, 1)}});
   }
+  slots_.end_lines_before(layout_.lines());
   for (auto* lists : {&velocities_, &tractions_})
-    for (auto& list : *lists) list.assign(slots_.size(), 0);
+    for (auto& list : *lists) list.assign(slots_.cells.size(), 0);
 }
 
 /// Notes the faces that differences along these read.
 template <int D, class Real>
 void InterfaceCorrections<D, Real>::hold(const Domain<D>& domain, const std::vector<Index<D>>& corrected) {
+  std::set<std::int64_t> read;
   for (const auto& at : corrected)
     for (int axis = 0; axis < D; ++axis)
       for (const int offset : offsets_along) {
         if (axis == axis_) continue;
         Index<D> beside = at;
         if (!thin(domain, axis)) beside[std::size_t(axis)] += offset;
-        held_.push_back({key_of(beside), layout_.cell(beside)});
+        read.insert(domain.grid.flat(beside));
       }
-  const auto less = [](const Held& one, const Held& other) { return one.key < other.key; };
-  std::sort(held_.begin(), held_.end(), less);
-  const auto same = [](const Held& one, const Held& other) { return one.key == other.key; };
-  held_.erase(std::unique(held_.begin(), held_.end(), same), held_.end());
-  held_.shrink_to_fit();
-  retained_.assign(held_.size() * 2 * D, 0);
+  for (const auto cell : read) {
+    const auto behind = domain.grid.index(cell);
+    held_.end_lines_before(layout_.line_number(behind));
+    held_.cells.push_back({behind[0], layout_.cell(behind)});
+  }
+  held_.end_lines_before(layout_.lines());
+  retained_.assign(held_.cells.size() * 2 * D, 0);
 }
 
 template <int D, class Real>
@@ -134,9 +138,7 @@ auto InterfaceCorrections<D, Real>::side_of(const State<D, Real>& state, const D
       Index<D> beside = behind;
       if (!thin(domain, axis)) beside[std::size_t(axis)] += offsets_along[k];
       if (copies()) {
-        const auto held = among(held_, {layout_.line_number(beside), layout_.line_number(beside) + 1},
-                                {beside[0], beside[0] + 1});
-        found.cells[number] = (std::int64_t(held.first) * 2 + side) * D;
+        found.cells[number] = (held_.from(layout_.line_number(beside), beside[0]) * 2 + side) * D;
       } else {
         beside[std::size_t(axis_)] += side - 1;
         found.cells[number] = layout_.cell(beside);
@@ -222,42 +224,21 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
   return found;
 }
 
-/// From the first of these keys to the end, in a list in their order.
-template <int D, class Real>
-template <class Keyed>
-std::pair<std::size_t, std::size_t> InterfaceCorrections<D, Real>::among(const std::vector<Keyed>& list,
-                                                                         const IndexRange& lines,
-                                                                         const IndexRange& columns) const {
-  const auto key_at = [&](std::int64_t line, std::int64_t x) {
-    return line * layout_.padded_nx() + std::clamp<std::int64_t>(x, 0, layout_.padded_nx());
-  };
-  const auto first = key_at(lines.first, columns.first), last = key_at(lines.last - 1, columns.last);
-  // Most rows are far from all of them.
-  if (list.empty() || last <= list.front().key || first > list.back().key) return {0, 0};
-  const auto first_from = [&](std::int64_t key) {
-    return std::size_t(
-        std::lower_bound(list.begin(), list.end(), key,
-                         [](const Keyed& one, std::int64_t wanted) { return one.key < wanted; }) -
-        list.begin());
-  };
-  return {first_from(first), first_from(last)};
-}
-
 template <int D, class Real>
 void InterfaceCorrections<D, Real>::retain(const State<D, Real>& state, std::int64_t line,
                                            const IndexRange& columns) {
   if (held_.empty()) return;
-  const auto [first, last] = among(held_, {line, line + 1}, columns);
+  const auto [first, last] = held_.in(line, columns);
   for (auto n = first; n < last; ++n)
     for (const int side : {0, 1})
       for (int row = 0; row < D; ++row)
-        retained_[(n * 2 + std::size_t(side)) * D + std::size_t(row)] =
+        retained_[std::size_t((n * 2 + side) * D + row)] =
             state.fields
                 .data()[held_[n].cell + (side - 1) * layout_.stride(axis_) + row * layout_.row_pitch()];
 }
 
 template <int D, class Real>
-void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
+void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::int64_t n) {
   const Slot& slot = slots_[n];
   const Real* const fields = copies() ? retained_.data() : state.fields.data();
   const std::int64_t pitch = copies() ? 1 : state.layout.row_pitch();
@@ -279,23 +260,25 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
       velocity[i] += bend, traction[i] += b * load;
     }
   }
-  for (std::size_t i = 0; i < D; ++i) velocities_[i][n] = velocity[i], tractions_[i][n] = traction[i];
+  for (std::size_t i = 0; i < D; ++i)
+    velocities_[i][std::size_t(n)] = velocity[i], tractions_[i][std::size_t(n)] = traction[i];
 }
 
 template <int D, class Real>
 std::int32_t InterfaceCorrections<D, Real>::slot(const Index<D>& behind) const {
   if (slots_.empty() || behind[std::size_t(axis_)] < 1) return none;
-  const auto line = layout_.line_number(behind);
-  const auto [found, end] = among(slots_, {line, line + 1}, {behind[0], behind[0] + 1});
+  const auto [found, end] = slots_.in(layout_.line_number(behind), {behind[0], behind[0] + 1});
   return found < end ? std::int32_t(found) : none;
 }
 
 template <int D, class Real>
 void InterfaceCorrections<D, Real>::update(const State<D, Real>& state, const IndexRange& lines,
                                            const IndexRange& columns) {
-  if (slots_.empty() || lines.empty()) return;
-  const auto [first, last] = among(slots_, lines, columns);
-  for (auto n = first; n < last; ++n) update_slot(state, n);
+  if (slots_.empty()) return;
+  for (auto line = lines.first; line < std::min(lines.last, layout_.lines()); ++line) {
+    const auto [first, last] = slots_.in(line, columns);
+    for (auto n = first; n < last; ++n) update_slot(state, n);
+  }
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, corrects_interface);

@@ -3,10 +3,9 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "solver/kernels/curvilinear_formulas.hpp"
+#include "solver/sweep/by_line.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
@@ -34,8 +33,8 @@ class InterfaceCorrections {
 
   bool empty() const { return slots_.empty(); }
   std::int64_t memory_bytes() const {
-    return bytes_of(slots_) + bytes_of(matrices_) + bytes_of(velocities_) + bytes_of(tractions_) +
-           bytes_of(held_) + bytes_of(retained_);
+    return slots_.memory_bytes() + bytes_of(matrices_) + bytes_of(velocities_) + bytes_of(tractions_) +
+           held_.memory_bytes() + bytes_of(retained_);
   }
   /// Slot of the face between a cell and the one before it along the axis, or `none` where nothing is
   /// corrected.
@@ -72,33 +71,26 @@ class InterfaceCorrections {
   };
   using Matrices = std::array<OfSide, 2>;
   struct Slot {
-    std::int64_t key;       // of the cell behind the face
+    std::int64_t x;         // of the cell behind the face
     std::int32_t matrices;  // their place in matrices_
     std::array<Side, 2> sides;
   };
-  /// A face that is retained: its key, and the cell behind it in the fields.
+  /// A face that is retained: column and place in the fields of the cell behind it.
   struct Held {
-    std::int64_t key, cell;
+    std::int64_t x, cell;
   };
   bool copies() const { return axis_ < D - 1; }
-  std::int64_t key_of(const Index<D>& behind) const {
-    return layout_.line_number(behind) * layout_.padded_nx() + behind[0];
-  }
-  /// The first of these keys of cells in these columns of lines, and the end.
-  template <class Keyed>
-  std::pair<std::size_t, std::size_t> among(const std::vector<Keyed>& list, const IndexRange& lines,
-                                            const IndexRange& columns) const;
   void hold(const Domain<D>& domain, const std::vector<Index<D>>& corrected);
   Side side_of(const State<D, Real>& state, const Domain<D>& domain, Index<D> behind, int side) const;
-  void update_slot(const State<D, Real>& state, std::size_t slot);
+  void update_slot(const State<D, Real>& state, std::int64_t slot);
   Point<D> normal_before(const Metric<D, Real>& metric, const Index<D>& behind) const;
   Matrices matrices_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind) const;
 
   int axis_ = D - 1;
   Layout<D> layout_;
-  std::vector<Slot> slots_;  // by key
+  ByLine<Slot> slots_;
   std::vector<Matrices> matrices_;
-  std::vector<Held> held_;      // by key
+  ByLine<Held> held_;
   std::vector<Real> retained_;  // [held][before, behind the face][velocity]
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;
 };
