@@ -31,7 +31,12 @@ constexpr Fit to_interpolate = {
     widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
 /// A stopband from lower wavenumbers on, or a smaller passband, helps near the source and hurts below ten
 /// cells per wavelength.
-constexpr Fit to_spread = {widest_spread, 1, 6, 2.1, 0.1 * (std::numbers::pi - 2.1), narrowest_spread, 4};
+constexpr Fit spread_to(double stopband) {
+  return {widest_spread, 1, 6, stopband, 0.1 * (std::numbers::pi - stopband), narrowest_spread, 4};
+}
+constexpr Fit to_spread = spread_to(2.1);
+/// Sweeps take no wave down to five cells out of its balance by more than they keep it in.
+constexpr Fit to_spread_lasting = spread_to(0.4 * std::numbers::pi);
 
 /// Keeps the fit solvable; far below its errors.
 constexpr double ridge = 1e-13;
@@ -93,8 +98,9 @@ enum class Wanted { value, slope };
 std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count, int most_moments,
                                          const Fit& fit, Wanted wanted) {
   const int moments = std::min(count, most_moments), unknowns = count + moments;
-  static const auto to_read = products_of_weights(to_interpolate), to_add = products_of_weights(to_spread);
-  const auto& products = fit.suppression > 0 ? to_add : to_read;
+  static const auto to_read = products_of_weights(to_interpolate), to_add = products_of_weights(to_spread),
+                    to_hold = products_of_weights(to_spread_lasting);
+  const auto& products = &fit == &to_interpolate ? to_read : &fit == &to_spread ? to_add : to_hold;
   std::array<Row, most_unknowns> a{};
   for (int i = 0; i < count; ++i) {
     const double x = double(first + i) - position;
@@ -211,8 +217,9 @@ std::vector<CellWeight> axis_slopes(double position, const AxisCells& usable) {
   return weights_round(position, usable, wanted, to_interpolate, Wanted::slope);
 }
 
-std::vector<CellWeight> spread_weights(double position, const AxisCells& usable) {
-  return weights_round(position, usable, widest_spread, to_spread);
+std::vector<CellWeight> spread_weights(double position, const AxisCells& usable, Moment moment) {
+  return weights_round(position, usable, widest_spread,
+                       moment == Moment::lasting ? to_spread_lasting : to_spread);
 }
 
 template <int D>
@@ -226,9 +233,10 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
 
 template <int D>
 std::vector<PointWeight<D>> spread_point_weights(const Grid<D>& grid, const Point<D>& point_m,
-                                                 const std::array<AxisCells, std::size_t(D)>& usable) {
+                                                 const std::array<AxisCells, std::size_t(D)>& usable,
+                                                 Moment moment) {
   return products<D>(grid, point_m, [&](int axis, double position) {
-    return spread_weights(position, usable[std::size_t(axis)]);
+    return spread_weights(position, usable[std::size_t(axis)], moment);
   });
 }
 

@@ -78,6 +78,9 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
                                           const std::array<AxisCells, std::size_t(D)>& usable,
                                           int most_cells = widest_stencil);
 
+/// Whether something of the moment of a source stays behind its wavelet.
+enum class Moment : std::uint8_t { passing, lasting };
+
 /// Weights that spread a point source smoothly (theory.md (A8)): over up to widest_spread usable cells, on a
 /// cell's centre too. They suppress waves shorter than three cells, which sweeps cannot hold in balance, and
 /// reproduce polynomials up to the fifth degree. Where widest_spread cells do not surround the point evenly,
@@ -85,13 +88,16 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
 /// wavelength, and what is left of short ones (measured in the tests):
 ///   cells per wavelength   24    15    12    10    8     6     | 3     2.8   2.4   2
 ///   7 on both sides        5e-5  6e-4  2e-3  4e-3  6e-3  3e-2  | 4e-2  8e-3  7e-3  9e-3
+/// Those of a moment that lasts suppress waves shorter than five cells (A8a).
 /// position and usable cells as for axis_weights(), narrowest_spread of them or more.
-std::vector<CellWeight> spread_weights(double position, const AxisCells& usable);
+std::vector<CellWeight> spread_weights(double position, const AxisCells& usable,
+                                       Moment moment = Moment::passing);
 
 /// Returns the weights that spread_weights() gives at a point in 2-D or 3-D: products of the axes' weights.
 template <int D>
 std::vector<PointWeight<D>> spread_point_weights(const Grid<D>& grid, const Point<D>& point_m,
-                                                 const std::array<AxisCells, std::size_t(D)>& usable);
+                                                 const std::array<AxisCells, std::size_t(D)>& usable,
+                                                 Moment moment);
 
 /// Weights for a value between time steps: Lagrange polynomials through `count` samples number first, first +
 /// 1, ...

@@ -267,13 +267,13 @@ TEST(PointWeights, HaveTheMomentsOfAPointSource) {
 }
 
 /// |sum of the weights times exp(i k x)|, less `wanted`, largest over positions in a cell.
-double spread_error(double cells_per_wavelength, double wanted) {
+double spread_error(double cells_per_wavelength, double wanted, Moment moment = Moment::passing) {
   const double k = 2 * pi / cells_per_wavelength;
   double largest = 0;
   for (int n = 0; n <= 50; ++n) {
     const double position = n / 50.;
     std::complex<double> sum = 0;
-    for (const auto& [cell, weight] : spread_weights(position, everywhere))
+    for (const auto& [cell, weight] : spread_weights(position, everywhere, moment))
       sum += weight * std::polar(1., k * (double(cell) - position));
     largest = std::max(largest, std::abs(sum - wanted));
   }
@@ -289,12 +289,25 @@ TEST(SpreadWeights, KeepLongWavesAndSuppressShortOnes) {
     EXPECT_LT(spread_error(cells, 0), bound) << cells;
 }
 
+// Proves (A8a).
+TEST(SpreadWeights, OfALastingMomentSuppressWavesShorterThanFiveCells) {
+  for (const auto& [cells, bound] :
+       {std::pair(24., 2e-4), {15., 2e-3}, {12., 5e-3}, {10., 0.011}, {8., 0.045}})
+    EXPECT_LT(spread_error(cells, 1, Moment::lasting), bound) << cells;
+  for (const auto& [cells, bound] : {std::pair(4., 0.1), {3., 0.1}, {2.4, 0.1}, {2., 0.1}})
+    EXPECT_LT(spread_error(cells, 0, Moment::lasting), bound) << cells;
+}
+
 // Proves (A8).
 TEST(SpreadWeights, HaveTheMomentsOfAPointSource) {
   // Among many cells, beside the last one, in a span of the fewest, and with images beyond a mirror.
   for (const auto& [usable, degree] : {std::pair(AxisCells{-50, 50}, 5), {{0, 50}, 3}, {{-4, 3}, 3}})
-    for (const double position : {-0.5, -0.2, 0., 0.3, 2.9}) {
-      const auto weights = spread_weights(position, usable);
+    for (const auto& [position, moment] : {std::pair(-0.5, Moment::passing),
+                                           {-0.2, Moment::lasting},
+                                           {0., Moment::passing},
+                                           {0.3, Moment::lasting},
+                                           {2.9, Moment::lasting}}) {
+      const auto weights = spread_weights(position, usable, moment);
       EXPECT_LE(weights.size(), std::size_t(widest_spread));
       for (int power = 0; power <= degree; ++power) {
         double sum = 0;

@@ -9,6 +9,19 @@
 #include "base/instantiate.hpp"
 
 namespace slipwave::solver {
+namespace {
+
+/// What stays of a moment, as a share of its greatest rate over a period: less keeps the rock round its
+/// source moving by less than 0.5 % of the waves (theory.md (A8a)).
+constexpr double lasting_share = 0.01;
+
+Moment moment_of(const Wavelet& wavelet) {
+  const double stays = wavelet.amplitude_spectrum(0);
+  return stays > lasting_share * wavelet.amplitude_spectrum(wavelet.nominal_hz()) ? Moment::lasting
+                                                                                  : Moment::passing;
+}
+
+}  // namespace
 
 template <int D, class Real>
 PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
@@ -18,7 +31,8 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
       medium_(scene.model.medium),
       wavelet_(source.wavelet),
       delay_s_(source.delay_s),
-      unit_(unit) {
+      unit_(unit),
+      moment_(moment_of(source.wavelet)) {
   const bool isotropic = point_injection(source)->isotropic;
   if (owns_point(domain, source.position_m, isotropic ? Side::fluid : Side::solid)) weigh(source);
   if (ranks) share(*ranks);
@@ -45,15 +59,18 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   centre_ = cell_at(domain_, source.position_m, side_);
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
-  const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
+  const auto add_moment = [&](int row, int like, double rate) {
+    const bool smoothly = injection.isotropic || moment_ == Moment::lasting;
+    if (rate == 0 || (smoothly && add_smoothly(source, row, like, -rate / volume))) return;
+    add(source, row, like, -rate / volume);
+  };
   const int normal_stresses = Rows::normal_stresses(state_.layout);
   for (int i = 0; i < D; ++i) {
     add_force(source, i, injection.force[std::size_t(i)], volume);
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
-    if (!spread && i < normal_stresses)
-      add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+    if (i < normal_stresses) add_moment(Rows::normal_stress(i), like, injection.moment_rate(i, i));
     for (int j = i + 1; j < D && !fluid; ++j)
-      add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
+      add_moment(Rows::shear_stress(i, j), Rows::shear_stress(i, j), injection.moment_rate(i, j));
   }
 }
 
@@ -184,15 +201,13 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
         Rows::stored(state_.layout, row) - Rows::stored(state_.layout, like), strength);
 }
 
-/// Spreads `strength` over all normal stresses, smoothly where that is possible.
+/// Does so smoothly; returns false, and does nothing, where that is not possible.
 template <int D, class Real>
-bool PointSource<D, Real>::add_smoothly(const Source<D>& source, double strength) {
-  using Rows = FieldRows<D>;
-  const int like = Rows::normal_stress(D - 1);
-  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like, side_);
+bool PointSource<D, Real>::add_smoothly(const Source<D>& source, int row, int like, double strength) {
+  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like, side_, moment_);
   if (weights.empty()) return false;
   reach_ = widest_spread / 2;
-  for (int i = 0; i < D; ++i) add(weights, Rows::normal_stress(i) - like, strength);
+  add(weights, row - like, strength);
   return true;
 }
 

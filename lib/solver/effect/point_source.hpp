@@ -29,8 +29,10 @@ class PointSource : public Effect<D, Real> {
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
   std::span<const std::int64_t> rows() const override { return rows_; }
+  /// Its rows take two half sweeps a step as long as it acts. Round a moment that lasts they continue so: one
+  /// whole sweep holds another stress in balance, and to change over would send out waves.
   bool active(const StepTime& time) const override {
-    return time.end_s() - delay_s_ <= wavelet_.duration_s();
+    return moment_ == Moment::lasting || time.end_s() - delay_s_ <= wavelet_.duration_s();
   }
   bool injects(const StepTime& time, std::int64_t row) const override {
     return active(time) && row >= rows_.front() && row <= rows_.back();
@@ -54,7 +56,7 @@ class PointSource : public Effect<D, Real> {
   void add_force(const Source<D>& source, int axis, double newtons, double volume);
   Index<D> cell_of_value(const ValueWeight& value) const;
   void add(const Source<D>& source, int row, int like, double strength);
-  bool add_smoothly(const Source<D>& source, double strength);
+  bool add_smoothly(const Source<D>& source, int row, int like, double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   std::span<const ValueWeight> values_of(std::int64_t row) const;
@@ -66,6 +68,7 @@ class PointSource : public Effect<D, Real> {
   Wavelet wavelet_;
   double delay_s_;
   double unit_;
+  Moment moment_ = Moment::passing;
   Side side_ = Side::solid;                  // of an interface of fluid and solid that it is on
   Index<D> centre_{};                        // the cell of the source, which may lie beyond this subdomain
   std::int64_t reach_ = widest_stencil / 2;  // of the weights of a source in that cell, in cells

@@ -562,13 +562,14 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
 
 template <int D>
 std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                               const Point<D>& point_m, int field_row, Side side) {
+                                               const Point<D>& point_m, int field_row, Side side,
+                                               Moment moment) {
   const Index<D> centre = cell_at(domain, point_m, side);
   if (domain.impedance(wave_s)(centre) == 0) return {};
   const auto usable = cells_of_the_rock(domain, centre, field_row);
   if (!usable) return {};
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
-  return value_weights(layout, spread_point_weights<D>(domain.grid, place, *usable), field_row);
+  return value_weights(layout, spread_point_weights<D>(domain.grid, place, *usable, moment), field_row);
 }
 
 template <int D>

@@ -42,12 +42,12 @@ template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row, Side side = Side::solid);
 
-/// Returns the weights of a source for a normal stress in a solid, smoothly spread over cells of the rock
-/// that the source is in (theory.md (A8)). They are empty in fluid, and where that rock is too thin.
+/// Returns the weights of a source for a stress in a solid, smoothly spread over cells of the rock that the
+/// source is in (theory.md (A8), (A8a)). They are empty in fluid, and where that rock is too thin.
 template <int D>
 std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                               const Point<D>& point_m, int field_row,
-                                               Side side = Side::solid);
+                                               const Point<D>& point_m, int field_row, Side side,
+                                               Moment moment);
 
 /// What ends the cells that are read: another kind of cell (solid, fluid, void), or strong interfaces, too.
 enum class Reach { over_one_kind, to_strong_interfaces };
