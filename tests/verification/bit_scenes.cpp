@@ -429,6 +429,14 @@ BitScenes of_effects() {
   for (const int order : {3, 7}) add("StepsOrder" + std::to_string(order), [=] { return steps(order); });
   add("WallsOrder5", [] { return walls(5, 2); });
   add("WallsOrder7InTime4", [] { return walls(7, 4); });
+  // Whose rows take half sweeps to the end.
+  add("LastingMoment", [] {
+    auto scene = in_one_rock();
+    scene.model.fracture = {}, scene.model.fracture_sets = {};
+    scene.survey.sources[0].mechanism = parse_mechanism<2>("double-couple:30");
+    scene.survey.sources[0].wavelet = parse_wavelet("gauss:80");
+    return scene;
+  });
   add("Intact", [] {
     auto scene = sea();
     scene.model.fracture = {}, scene.model.fracture_sets = {};
