@@ -11,14 +11,20 @@
 namespace slipwave::solver {
 namespace {
 
-/// What stays of a moment, as a share of its greatest rate over a period: less keeps the rock round its
-/// source moving by less than 0.5 % of the waves (theory.md (A8a)).
+/// A moment lasts where the integral of its wavelet is more than this share of its spectrum at its own
+/// frequency: with less, what (A8a) keeps from moving on is less than 1 % of the waves.
 constexpr double lasting_share = 0.01;
 
-Moment moment_of(const Wavelet& wavelet) {
+template <int D>
+Moment moment_of(const Source<D>& source) {
+  const auto& wavelet = source.wavelet;
   const double stays = wavelet.amplitude_spectrum(0);
-  return stays > lasting_share * wavelet.amplitude_spectrum(wavelet.nominal_hz()) ? Moment::lasting
-                                                                                  : Moment::passing;
+  if (stays <= lasting_share * wavelet.amplitude_spectrum(wavelet.nominal_hz())) return Moment::passing;
+  const auto injection = *point_injection(source);
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j)
+      if (injection.moment_rate(i, j) != 0) return Moment::lasting;
+  return Moment::passing;
 }
 
 }  // namespace
@@ -32,7 +38,7 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
       wavelet_(source.wavelet),
       delay_s_(source.delay_s),
       unit_(unit),
-      moment_(moment_of(source.wavelet)) {
+      moment_(moment_of(source)) {
   const bool isotropic = point_injection(source)->isotropic;
   if (owns_point(domain, source.position_m, isotropic ? Side::fluid : Side::solid)) weigh(source);
   if (ranks) share(*ranks);
@@ -41,7 +47,7 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
                    [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
   const double dt_s = time_step_s(scene);
   double given = 0;
-  for (StepTime time{0, dt_s}; active(time) && time.end_s() <= scene.recording.duration_s + dt_s;
+  for (StepTime time{0, dt_s}; gives(time) && time.end_s() <= scene.recording.duration_s + dt_s;
        ++time.step) {
     given_.push_back(given);
     given += unit * dt_s * wavelet_(time.end_s() - delay_s_);
@@ -59,18 +65,17 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   centre_ = cell_at(domain_, source.position_m, side_);
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
-  const auto add_moment = [&](int row, int like, double rate) {
-    const bool smoothly = injection.isotropic || moment_ == Moment::lasting;
-    if (rate == 0 || (smoothly && add_smoothly(source, row, like, -rate / volume))) return;
-    add(source, row, like, -rate / volume);
-  };
-  const int normal_stresses = Rows::normal_stresses(state_.layout);
+  const int first = Rows::normal_stress(0), stored = Rows::normal_stresses(state_.layout);
+  if (injection.isotropic)
+    add_moment(source, {first, first + stored}, Rows::normal_stress(D - 1),
+               -injection.moment_rate(0, 0) / volume);
   for (int i = 0; i < D; ++i) {
     add_force(source, i, injection.force[std::size_t(i)], volume);
-    const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
-    if (i < normal_stresses) add_moment(Rows::normal_stress(i), like, injection.moment_rate(i, i));
-    for (int j = i + 1; j < D && !fluid; ++j)
-      add_moment(Rows::shear_stress(i, j), Rows::shear_stress(i, j), injection.moment_rate(i, j));
+    const auto add = [&](int row, int j) {
+      add_moment(source, {row, row + 1}, row, -injection.moment_rate(i, j) / volume);
+    };
+    if (!injection.isotropic && i < stored) add(Rows::normal_stress(i), i);
+    for (int j = i + 1; j < D && !fluid; ++j) add(Rows::shear_stress(i, j), j);
   }
 }
 
@@ -101,7 +106,7 @@ void PointSource<D, Real>::share(Ranks& ranks) {
 template <int D, class Real>
 void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fields,
                                  const IndexRange& cells) {
-  if (!active(time)) return;
+  if (!gives(time)) return;
   const auto values = values_of(fields.row);
   if (values.empty()) return;
   const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s() - delay_s_);
@@ -192,23 +197,22 @@ Index<D> PointSource<D, Real>::cell_of_value(const ValueWeight& value) const {
   return cell;
 }
 
-/// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
+/// Spreads `strength` over cells of all `rows` with the weights of a source in row `like`: smoothly, if the
+/// moment is isotropic or lasts and its rock is large enough.
 template <int D, class Real>
-void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
+void PointSource<D, Real>::add_moment(const Source<D>& source, const IndexRange& rows, int like,
+                                      double strength) {
   using Rows = FieldRows<D>;
-  if (strength != 0)
-    add(source_weights(state_.layout, domain_, source.position_m, like, side_),
-        Rows::stored(state_.layout, row) - Rows::stored(state_.layout, like), strength);
-}
-
-/// Does so smoothly; returns false, and does nothing, where that is not possible.
-template <int D, class Real>
-bool PointSource<D, Real>::add_smoothly(const Source<D>& source, int row, int like, double strength) {
-  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like, side_, moment_);
-  if (weights.empty()) return false;
-  reach_ = widest_spread / 2;
-  add(weights, row - like, strength);
-  return true;
+  if (strength == 0) return;
+  std::vector<ValueWeight> weights;
+  if (side_ == Side::fluid || moment_ == Moment::lasting)
+    weights = smooth_source_weights(state_.layout, domain_, source.position_m, like, side_, moment_);
+  if (weights.empty())
+    weights = source_weights(state_.layout, domain_, source.position_m, like, side_);
+  else
+    reach_ = widest_spread / 2;
+  for (auto row = rows.first; row < rows.last; ++row)
+    add(weights, Rows::stored(state_.layout, int(row)) - Rows::stored(state_.layout, like), strength);
 }
 
 template <int D, class Real>

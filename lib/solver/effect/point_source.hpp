@@ -31,9 +31,7 @@ class PointSource : public Effect<D, Real> {
   std::span<const std::int64_t> rows() const override { return rows_; }
   /// Its rows take two half sweeps a step as long as it acts. Round a moment that lasts they continue so: one
   /// whole sweep holds another stress in balance, and to change over would send out waves.
-  bool active(const StepTime& time) const override {
-    return moment_ == Moment::lasting || time.end_s() - delay_s_ <= wavelet_.duration_s();
-  }
+  bool active(const StepTime& time) const override { return moment_ == Moment::lasting || gives(time); }
   bool injects(const StepTime& time, std::int64_t row) const override {
     return active(time) && row >= rows_.front() && row <= rows_.back();
   }
@@ -51,12 +49,12 @@ class PointSource : public Effect<D, Real> {
   void report(ShotReport& report) const override;
 
  private:
+  bool gives(const StepTime& time) const { return time.end_s() - delay_s_ <= wavelet_.duration_s(); }
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
   void add_force(const Source<D>& source, int axis, double newtons, double volume);
   Index<D> cell_of_value(const ValueWeight& value) const;
-  void add(const Source<D>& source, int row, int like, double strength);
-  bool add_smoothly(const Source<D>& source, int row, int like, double strength);
+  void add_moment(const Source<D>& source, const IndexRange& rows, int like, double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   std::span<const ValueWeight> values_of(std::int64_t row) const;
