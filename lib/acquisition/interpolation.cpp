@@ -35,7 +35,7 @@ constexpr Fit spread_to(double stopband) {
   return {widest_spread, 1, 6, stopband, 0.1 * (std::numbers::pi - stopband), narrowest_spread, 4};
 }
 constexpr Fit to_spread = spread_to(2.1);
-/// Sweeps take no wave down to five cells out of its balance by more than they keep it in.
+/// Static stress that is shorter than five cells leaks along the axes once the waves are gone.
 constexpr Fit to_spread_lasting = spread_to(0.4 * std::numbers::pi);
 
 /// Keeps the fit solvable; far below its errors.

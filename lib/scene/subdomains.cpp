@@ -85,15 +85,17 @@ template <int D>
 bool has_walls(const Medium<D>& medium) {
   const auto& grid = medium.grid();
   if (medium.vs.empty()) return false;  // before the model is read
-  const auto plane = grid.size() / grid.shape[D - 1];
+  const auto nx = grid.shape[0], plane = grid.size() / grid.shape[D - 1];
   const auto part = [&](std::int64_t n, std::int64_t other) {
     return medium.is_solid(std::size_t(n)) != medium.is_solid(std::size_t(other));
   };
-  for (std::int64_t n = plane; n < grid.size(); ++n) {
-    const auto at = grid.index(n);
-    for (std::int64_t axis = 0, stride = 1; axis + 1 < D; stride *= grid.shape[std::size_t(axis++)])
-      if (at[std::size_t(axis)] > 0 && part(n, n - stride) && part(n - plane, n - plane - stride))
-        return true;
+  for (std::int64_t line = plane; line < grid.size(); line += nx) {
+    const auto at = grid.index(line);
+    for (std::int64_t axis = 0, stride = 1; axis + 1 < D; stride *= grid.shape[std::size_t(axis++)]) {
+      if (axis > 0 && at[std::size_t(axis)] == 0) continue;
+      for (std::int64_t n = line + (axis == 0 ? 1 : 0); n < line + nx; ++n)
+        if (part(n, n - stride) && part(n - plane, n - plane - stride)) return true;
+    }
   }
   return false;
 }

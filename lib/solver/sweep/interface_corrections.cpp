@@ -267,8 +267,8 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
 template <int D, class Real>
 std::int32_t InterfaceCorrections<D, Real>::slot(const Index<D>& behind) const {
   if (slots_.empty() || behind[std::size_t(axis_)] < 1) return none;
-  const auto [found, end] = slots_.in(layout_.line_number(behind), {behind[0], behind[0] + 1});
-  return found < end ? std::int32_t(found) : none;
+  const auto* const found = slots_.find(layout_.line_number(behind), behind[0]);
+  return found ? std::int32_t(found - slots_.cells.data()) : none;
 }
 
 template <int D, class Real>
