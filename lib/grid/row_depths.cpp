@@ -36,6 +36,22 @@ CornerWeights corner_weights(double position, std::int64_t cells) {
   return of;
 }
 
+/// Returns by how much the corners of a cell (RowDepths::corners_of) deepen along an axis, on average.
+template <std::size_t N>
+double mean_gain(const std::array<double, N>& corners, int axis) {
+  double sum = 0;
+  for (std::size_t n = 0; n < N; ++n) sum += (n >> axis & 1 ? 1 : -1) * corners[n];
+  return sum / (double(N) / 2);
+}
+
+/// Returns the same along z, added up column by column.
+template <std::size_t N>
+double height_of(const std::array<double, N>& corners) {
+  double sum = 0;
+  for (std::size_t n = 0; n < N / 2; ++n) sum -= corners[n], sum += corners[N / 2 + n];
+  return sum / (double(N) / 2);
+}
+
 }  // namespace
 
 template <int D>
@@ -64,46 +80,29 @@ RowDepths<D>::RowDepths(const Index& cells, std::vector<double> corners_m,
 template <int D>
 double RowDepths<D>::centre(const Index& at) const {
   double sum = 0;
-  for (int corner = 0; corner < 1 << D; ++corner) {
-    Index of = at;
-    for (int axis = 0; axis < D; ++axis) of[std::size_t(axis)] += (corner >> axis) & 1;
-    sum += this->corner(of);
-  }
+  for (const double corner : corners_of(at)) sum += corner;
   return sum / (1 << D);
 }
 
 template <int D>
 double RowDepths<D>::height(const Index& at) const {
-  double sum = 0;
-  for (int corner = 0; corner < 1 << (D - 1); ++corner) {
-    Index of = at;
-    for (int axis = 0; axis < D - 1; ++axis) of[std::size_t(axis)] += (corner >> axis) & 1;
-    sum -= this->corner(of);
-    ++of[D - 1];
-    sum += this->corner(of);
-  }
-  return sum / (1 << (D - 1));
+  return height_of(corners_of(at));
 }
 
 template <int D>
 double RowDepths<D>::slope(const Index& at, int axis, double spacing_m) const {
-  double sum = 0;
-  for (int corner = 0; corner < 1 << D; ++corner) {
-    Index of = at;
-    for (int n = 0; n < D; ++n) of[std::size_t(n)] += (corner >> n) & 1;
-    sum += ((corner >> axis) & 1 ? 1 : -1) * this->corner(of);
-  }
-  return sum / ((1 << (D - 1)) * spacing_m);
+  return mean_gain(corners_of(at), axis) / spacing_m;
 }
 
 template <int D>
 double RowDepths<D>::stretch(const Index& at, double spacing_m) const {
+  const auto corners = corners_of(at);
   double square = 1;
   for (int axis = 0; axis < D - 1; ++axis) {
-    const double slope = this->slope(at, axis, spacing_m);
+    const double slope = mean_gain(corners, axis) / spacing_m;
     square += slope * slope;
   }
-  return std::sqrt(square) * spacing_m / height(at);
+  return std::sqrt(square) * spacing_m / height_of(corners);
 }
 
 template <int D>

@@ -22,9 +22,23 @@ class CornerDepths {
       for (auto n = begin; n < end; ++n) depths_[std::size_t(n)] = corner_depth(domain, corners_.index(n));
     });
   }
-  double operator()(const Index<D>& corner) const { return depths_[std::size_t(corners_.flat(corner))]; }
+  /// What they gain from a corner to the next along an axis, of a corner and of the next along another.
+  double gain(const Index<D>& corner, int axis, int other) const {
+    const auto place = std::size_t(corners_.flat(corner)), next = stride(axis),
+               beside = place + stride(other);
+    return (depths_[place + next] - depths_[place]) + (depths_[beside + next] - depths_[beside]);
+  }
+  double gain(const Index<D>& corner, int axis) const {
+    const auto place = std::size_t(corners_.flat(corner));
+    return depths_[place + stride(axis)] - depths_[place];
+  }
 
  private:
+  std::size_t stride(int axis) const {
+    std::int64_t corners = 1;
+    for (int n = 0; n < axis; ++n) corners *= corners_.shape[n];
+    return std::size_t(corners);
+  }
   Grid<D> corners_;
   std::vector<double> depths_;
 };
@@ -35,15 +49,7 @@ namespace {
 /// horizontal axis other than `axis`.
 template <int D>
 double mean_gain(const CornerDepths<D>& depth, const Index<D>& cell, int axis, int step) {
-  double gain = 0;
-  for (int other = 0; other < D - 1; ++other) {
-    Index<D> from = cell;
-    if (D == 3) from[1 - axis] += other;
-    Index<D> to = from;
-    ++to[step];
-    gain += depth(to) - depth(from);
-  }
-  return gain / (D - 1);
+  return D == 3 ? depth.gain(cell, step, 1 - axis) / 2 : depth.gain(cell, step);
 }
 
 /// Returns the slope of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
