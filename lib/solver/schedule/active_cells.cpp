@@ -2,7 +2,6 @@
 #include "solver/schedule/active_cells.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -11,14 +10,32 @@
 namespace slipwave::solver {
 namespace {
 
-std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value); }
-std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
+using Words = std::uint64_t __attribute__((vector_size(16)));
+
+/// Whether any of `count` values of these rows is not zero. Written in vectors: compilers leave it scalar.
+template <class Real>
+bool any_nonzero(const Real* first, std::int64_t count, std::int64_t pitch, int rows) {
+  constexpr auto values = std::int64_t(sizeof(Words) / sizeof(Real));
+  Words words{};
+  bool any = false;
+  for (int row = 0; row < rows; ++row) {
+    const Real* const cells = first + row * pitch;
+    std::int64_t i = 0;
+    for (Words of; i + values <= count; i += values) {
+      std::memcpy(&of, cells + i, sizeof of);
+      words |= of;
+    }
+    for (; i < count; ++i) any |= cells[i] != 0;
+  }
+  // The signs of zeros do not count.
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63, signs = sizeof(Real) == 8 ? sign : sign | sign >> 32;
+  return any || ((words[0] | words[1]) & ~signs) != 0;
+}
 
 }  // namespace
 
 template <int D, class Real>
 void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns, const Sweeps<D, Real>& sweeps) {
-  using Bits = decltype(bits_of(Real()));
   char* const active = active_.data() + line * blocks_;
   const std::int64_t first = columns.first / block,
                      last = std::min((columns.last + block - 1) / block, blocks_);
@@ -28,12 +45,8 @@ void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns, co
     if (active[n]) continue;
     // The last block of a row holds ghost cells, too.
     const std::int64_t count = std::min(block, state_.layout.shape()[0] - n * block);
-    Bits any = 0;
-    for (int row = 0; row < state_.layout.rows() && any == 0; ++row) {
-      const Real* const cells = fields + row * state_.layout.row_pitch() + n * block;
-      for (std::int64_t i = 0; i < count; ++i) any |= Bits(bits_of(cells[i]) << 1);  // all but the signs
-    }
-    active[n] = any != 0 || !sweeps.faces_at_rest(line, {n * block, n * block + count});
+    const bool any = any_nonzero(fields + n * block, count, state_.layout.row_pitch(), state_.layout.rows());
+    active[n] = any || !sweeps.faces_at_rest(line, {n * block, n * block + count});
     if (active[n]) lines_[std::size_t(line)].add({std::int32_t(n), std::int32_t(n + 1)});
   }
 }

@@ -25,10 +25,13 @@ class ActiveCells {
   /// From the first to the last of the blocks which these columns touch that may not be zero in any of some
   /// lines, in cells; columns beyond a line do not count.
   IndexRange among(const IndexRange& lines, const IndexRange& columns) const {
+    const auto first = std::max<std::int64_t>(columns.first, 0) / block,
+               last = std::min((columns.last + block - 1) / block, blocks_);
     Blocks all;
-    for (auto line = lines.first; line < lines.last; ++line) all.add(lines_[std::size_t(line)]);
-    return {std::max<std::int64_t>(all.first, std::max<std::int64_t>(columns.first, 0) / block) * block,
-            std::min<std::int64_t>(all.last, (columns.last + block - 1) / block) * block};
+    // Once waves are everywhere, the first line tells.
+    for (auto line = lines.first; line < lines.last && (all.first > first || all.last < last); ++line)
+      all.add(lines_[std::size_t(line)]);
+    return {std::max<std::int64_t>(all.first, first) * block, std::min<std::int64_t>(all.last, last) * block};
   }
   /// Marks those blocks of these columns that are no longer zero, or whose faces are not at rest: a traction
   /// may be left where all motion is too small for a number, and a neighbour may give a state.

@@ -236,9 +236,11 @@ class InterfaceStencils {
 
   std::size_t size() const { return list_.cells.size(); }
   std::int64_t memory_bytes() const { return list_.memory_bytes(); }
+  /// Whether it would correct anything of a line.
+  bool in_line(std::int64_t line) const { return !list_.empty(line); }
   /// Whether it would correct anything of these columns.
   bool any(std::int64_t line, const IndexRange& columns) const {
-    return !list_.empty(line) && !list_.in(line, columns).empty();
+    return in_line(line) && !list_.in(line, columns).empty();
   }
   /// Whether it corrects all of these columns.
   bool all(std::int64_t line, const IndexRange& columns) const {
@@ -250,7 +252,7 @@ class InterfaceStencils {
   void correct(int order, std::int64_t line, const IndexRange& columns, const PairOfLine<Real>& pair,
                const MaterialRows<Real>& material, Real* up, Real* down,
                const CurvilinearAlong<Real>* metric = nullptr) const {
-    if (!list_.empty(line)) correct_line(order, line, columns, pair, material, up, down, metric);
+    if (in_line(line)) correct_line(order, line, columns, pair, material, up, down, metric);
   }
 
  private:

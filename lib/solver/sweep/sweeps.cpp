@@ -316,31 +316,31 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   const auto impedance_of = [](int p, const MaterialRows<Real>& material) {
     return p == 0 ? material.zp : p == 1 ? material.zs : material.zs2;
   };
-  const auto reconstruct = [&](int p, const IndexRange& part, Real* up, Real* down) {
-    if (part.empty()) return;
-    const auto* run = state_.uniform_run(number, part.first, part.last);
-    const auto material = run ? run->template rows<D>(axis) : state_.material_from(line, part.first, axis);
-    const auto from = part.first - columns.first;
-    const Pair& pair = pairs_[axis][p];
-    kernels_[run != nullptr]->reconstruct(part.count(), stride, fields + pair.v * pitch + part.first,
-                                          fields + pair.s * pitch + part.first, impedance_of(p, material),
-                                          material.b, scale, up + from, down + from);
-  };
   const auto material = state_.material_from(line, columns.first, axis);
+  const auto* const run = whole.empty() ? nullptr : state_.uniform_run(number, whole.first, whole.last);
+  const auto of_whole = run ? run->template rows<D>(axis) : material;
+  const auto cells = whole.count(), padded = columns.count() - cells;
   for (int p = 0; p < pair_count(); ++p) {
     const Pair& pair = pairs_[axis][p];
     Real* const up = outgoing.up(p);
     Real* const down = outgoing.down(p);
     const Real* const v = fields + pair.v * pitch + columns.first;
     const Real* const s = fields + pair.s * pitch + columns.first;
+    const auto& stencils = stencils_of(axis, p);
     // Between layers a few cells thick, interfaces leave nothing of a row.
-    if (!stencils_of(axis, p).all(number, whole)) reconstruct(p, whole, up, down);
-    reconstruct(p, {whole.last, columns.last}, up, down);
-    auto of_pair = material;
-    if (p > 0) of_pair.zs = impedance_of(p, material);
-    stencils_of(axis, p).correct(order_, number, columns,
-                                 PairOfLine<Real>{v, s, stride, corrections_of(axis, p, whole_step), scale},
-                                 of_pair, up, down);
+    if (cells > 0 && !stencils.all(number, whole))
+      kernels_[run != nullptr]->reconstruct(cells, stride, v, s, impedance_of(p, of_whole), of_whole.b, scale,
+                                            up, down);
+    if (padded > 0)
+      kernels_[false]->reconstruct(padded, stride, v + cells, s + cells, impedance_of(p, material) + cells,
+                                   material.b + cells, scale, up + cells, down + cells);
+    if (stencils.in_line(number)) {
+      auto of_pair = material;
+      if (p > 0) of_pair.zs = impedance_of(p, material);
+      stencils.correct(order_, number, columns,
+                       PairOfLine<Real>{v, s, stride, corrections_of(axis, p, whole_step), scale}, of_pair,
+                       up, down);
+    }
     // After the stencils beside interfaces: their waves keep to the criterion, too.
     if (monotone_)
       kernels_[false]->limit(columns.count(), stride, v, s, state_.material_layout.stride(axis),
@@ -1037,7 +1037,10 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
       if (face && face->row == row) return false;
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
-  const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};
+  const auto number = layout.line_number(here);
+  // Uniform runs are faster with their own loops.
+  if (state_.uniform_run(number, columns.first, columns.last)) return false;
+  const auto lines = {number, layout.line_number(below), layout.line_number(advanced)};
   for (const auto* treatment : treatments_)
     if (treatment->beside(axis, layout.line_number(advanced))) return false;
   // Rows in between become those before and behind others.
@@ -1048,11 +1051,8 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
     return plain[std::size_t(line)] && state_.uniform_runs_of(line).empty();
   };
   if (std::all_of(lines.begin(), lines.end(), is_plain)) return true;
-  const auto number = *lines.begin();
   for (const auto line : lines)
     if (metric_.curvilinear(line) || anisotropic_cells_.any(line, columns)) return false;
-  // Uniform runs are faster with their own loops.
-  if (state_.uniform_run(number, columns.first, columns.last)) return false;
   // The outgoing waves downwards are not stored, which uniform runs would need.
   for (const auto line : lines)
     for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(line))
