@@ -18,9 +18,8 @@ constexpr std::int64_t usual_stripe = 256, stripe_in_fluid = 512;
 /// In 3-D cells of a plane of a stripe: the second cache, of 1 MiB or more, holds what the sweeps along z
 /// need.
 constexpr std::int64_t usual_cells_of_a_plane = 1536;
-/// Columns swept together along y and z, and planes that a sweep does at once: a sweep along z then reads
-/// most planes from the first cache.
-constexpr std::int64_t usual_chunk = 128, usual_planes = 4;
+/// Planes that a sweep does at once: a sweep along z then finds most of what it reads in a near cache.
+constexpr std::int64_t usual_planes = 4;
 /// Cache lines of the next planes that are fetched at a time, while a row of a sweep across is swept.
 constexpr int fetched_together = 24;
 
@@ -47,7 +46,6 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       step_(step),
       steps_per_tile_(steps_of_a_tile(tiling)),
       stripe_width_(tiling.stripe_cells > 0 ? tiling.stripe_cells : stripe_for(layout_)),
-      chunk_(usual_chunk),
       together_(D == 2 ? 1 : usual_planes),
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
@@ -441,18 +439,16 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
       return;
     sweeps_.correct_flank_surfaces(row, steps);
     worker.work.time() = {stage.time.step, stage.sweep};
-    each_chunk([&](const IndexRange& cells) {
-      march(
-          1, {0, 0, row}, steps, stage.fraction, ring, worker,
-          [&](const IndexRange& lines_read) {
-            return reached(stage.time, {row - flank_rows, row + flank_rows + 1}, lines_read, cells);
-          },
-          [](std::int64_t) {},
-          [&](std::int64_t step, const IndexRange& swept) {
-            const auto done = step - behind;
-            if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), swept);
-          });
-    });
+    march(
+        1, {0, 0, row}, steps, stage.fraction, ring, worker,
+        [&](const IndexRange& lines_read) {
+          return reached(stage.time, {row - flank_rows, row + flank_rows + 1}, lines_read, whole_lines());
+        },
+        [](std::int64_t) {},
+        [&](std::int64_t step, const IndexRange& swept) {
+          const auto done = step - behind;
+          if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), swept);
+        });
   }
 }
 
@@ -502,6 +498,7 @@ IndexRange TiledExecutor<D, Real>::reached(const StepTime& time, const IndexRang
     if (!here.empty())
       active = {std::min(active.first, here.first - read_beside),
                 std::max(active.last, here.last + read_beside)};
+    if (active.first <= cells.first && active.last >= cells.last) return cells;
     for (auto y = all.first; step_.any_enters() && y < all.last; ++y)
       if (step_.enters(time, line_of(row, y), read)) return cells;
   }
@@ -558,15 +555,13 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
     for (auto step = needed.first; step < needed.last; ++step) correct(step);
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = tile.rings[std::size_t(stage.number * cut_cells_ + y)];
-      each_chunk([&](const IndexRange& cells) {
-        march(
-            D - 1, {0, y, 0}, needed, stage.fraction, ring, worker,
-            [&](const IndexRange& rows_read) {
-              return reached(stage.time, rows_read, with_surface_rows(D - 1, {y, y + 1}), cells);
-            },
-            [](std::int64_t) {},
-            [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, y, swept, worker); });
-      });
+      march(
+          D - 1, {0, y, 0}, needed, stage.fraction, ring, worker,
+          [&](const IndexRange& rows_read) {
+            return reached(stage.time, rows_read, with_surface_rows(D - 1, {y, y + 1}), whole_lines());
+          },
+          [](std::int64_t) {},
+          [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, y, swept, worker); });
     }
   }
 }

@@ -152,13 +152,6 @@ class TiledExecutor : public Executor {
   /// Lines of a row: one; in 3-D those of a plane, by y.
   std::int64_t line_of(std::int64_t row, std::int64_t y) const { return D == 2 ? row : row * cut_cells_ + y; }
   IndexRange whole_lines() const { return {0, layout_.shape()[0]}; }
-  /// Calls what(columns) for all cells of lines, those at a time that the first cache holds in a sweep
-  /// across.
-  template <class What>
-  void each_chunk(What&& what) const {
-    for (std::int64_t first = 0; first < layout_.shape()[0]; first += chunk_)
-      what(IndexRange{first, std::min(first + chunk_, layout_.shape()[0])});
-  }
   /// The number of cells beside its own that a sweep reads, corrections of free surfaces included: at most a
   /// block.
   static constexpr std::int64_t read_beside = Layout<D>::block;
@@ -180,10 +173,10 @@ class TiledExecutor : public Executor {
   bool everywhere_;
   TimeStep<D, Real>& step_;
   int steps_per_tile_;
-  std::int64_t stripe_width_, chunk_;  // columns; in 3-D rows of a plane, and columns swept together
-  std::int64_t together_;              // rows that a stage does before the next
-  std::int64_t rows_, cut_cells_;      // along the last axis and the one before it
-  std::int64_t longest_;               // rows from the first to the last stage of a tile
+  std::int64_t stripe_width_;      // columns; in 3-D rows of a plane
+  std::int64_t together_;          // rows that a stage does before the next
+  std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
+  std::int64_t longest_;           // rows from the first to the last stage of a tile
   std::int64_t band_rows_, bands_;
   std::vector<TileInProgress> in_progress_;
   std::vector<Worker> workers_;
