@@ -309,17 +309,14 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     return reconstruct_curvilinear_row(axis, line, columns, fields, pitch, stride, scale, outgoing, prefetch);
   const bool whole_step = scale == 1;
   scale = scale_of(axis, line, scale);
-  const std::int64_t nx = state_.layout.shape()[0];
-  // The padding of the last block of a row has no material: with it a piece would never be uniform.
-  const IndexRange whole{columns.first,
-                         columns.last > nx ? std::max(columns.first, nx / lag * lag) : columns.last};
+  // Nothing reads the waves of the padding of a row.
+  const IndexRange cells{columns.first, std::min(columns.last, state_.layout.shape()[0])};
   const auto impedance_of = [](int p, const MaterialRows<Real>& material) {
     return p == 0 ? material.zp : p == 1 ? material.zs : material.zs2;
   };
   const auto material = state_.material_from(line, columns.first, axis);
-  const auto* const run = whole.empty() ? nullptr : state_.uniform_run(number, whole.first, whole.last);
-  const auto of_whole = run ? run->template rows<D>(axis) : material;
-  const auto cells = whole.count(), padded = columns.count() - cells;
+  const auto* const run = state_.uniform_run(number, cells.first, cells.last);
+  const auto of_cells = run ? run->template rows<D>(axis) : material;
   for (int p = 0; p < pair_count(); ++p) {
     const Pair& pair = pairs_[axis][p];
     Real* const up = outgoing.up(p);
@@ -328,12 +325,9 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     const Real* const s = fields + pair.s * pitch + columns.first;
     const auto& stencils = stencils_of(axis, p);
     // Between layers a few cells thick, interfaces leave nothing of a row.
-    if (cells > 0 && !stencils.all(number, whole))
-      kernels_[run != nullptr]->reconstruct(cells, stride, v, s, impedance_of(p, of_whole), of_whole.b, scale,
-                                            up, down);
-    if (padded > 0)
-      kernels_[false]->reconstruct(padded, stride, v + cells, s + cells, impedance_of(p, material) + cells,
-                                   material.b + cells, scale, up + cells, down + cells);
+    if (!stencils.all(number, cells))
+      kernels_[run != nullptr]->reconstruct(columns.count(), stride, v, s, impedance_of(p, of_cells),
+                                            of_cells.b, scale, up, down);
     if (stencils.in_line(number)) {
       auto of_pair = material;
       if (p > 0) of_pair.zs = impedance_of(p, material);
