@@ -17,6 +17,8 @@ struct Messages {
   std::function<void(const std::function<std::string()>& sentence)> close;
   /// Returns the progress of a loop with this title ("shot 3") over things of this name ("steps").
   std::function<Progress(const std::string& title, const std::string& things)> progress;
+  /// Whether anybody gets to see a sentence: what takes long to find out need not be found out else.
+  bool heard = true;
 };
 
 }  // namespace slipwave

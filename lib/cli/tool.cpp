@@ -120,7 +120,8 @@ Messages Context::messages() const {
           [own = *this](const std::function<std::string()>& sentence) { own.close(sentence); },
           [own = *this](const std::string& what, const std::string& things) {
             return own.progress(what, things);
-          }};
+          },
+          !quiet || log};
 }
 
 void say_error(const std::string& tool, const std::string& sentence) { cli::say(tool, sentence); }

@@ -145,7 +145,7 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   release_freed_memory();
   warn_of_projection(scene.survey, messages);
   const bool asked = options.scene.bands == "auto";
-  if (asked || options.scene.bands.empty()) choose_bands(scene, asked, messages);
+  if (asked || (options.scene.bands.empty() && messages.heard)) choose_bands(scene, asked, messages);
   if (!options.wanted_error)
     for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   if (options.plan) return print_plan(scene, options, messages);
