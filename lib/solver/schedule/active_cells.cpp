@@ -17,19 +17,22 @@ template <class Real>
 bool any_nonzero(const Real* first, std::int64_t count, std::int64_t pitch, int rows) {
   constexpr auto values = std::int64_t(sizeof(Words) / sizeof(Real));
   Words words{};
-  bool any = false;
   for (int row = 0; row < rows; ++row) {
     const Real* const cells = first + row * pitch;
     std::int64_t i = 0;
-    for (Words of; i + values <= count; i += values) {
+    Words of{};
+    for (; i + values <= count; i += values) {
       std::memcpy(&of, cells + i, sizeof of);
       words |= of;
     }
-    for (; i < count; ++i) any |= cells[i] != 0;
+    if (i == count) continue;
+    of = Words{};
+    std::memcpy(&of, cells + i, std::size_t(count - i) * sizeof(Real));
+    words |= of;
   }
   // The signs of zeros do not count.
   constexpr std::uint64_t sign = std::uint64_t{1} << 63, signs = sizeof(Real) == 8 ? sign : sign | sign >> 32;
-  return any || ((words[0] | words[1]) & ~signs) != 0;
+  return ((words[0] | words[1]) & ~signs) != 0;
 }
 
 }  // namespace
