@@ -78,15 +78,12 @@ class RowDepths {
   }
   /// Depths of the corners of a cell, m: bit n of a corner's number says on which side along axis n it is.
   std::array<double, std::size_t(1) << D> corners_of(const Index& at) const {
-    std::array<std::size_t, std::size_t(1) << D> from{};
     std::array<double, std::size_t(1) << D> depths{};
-    const auto first = corner_place(at);
-    std::size_t next = 1;  // corner along an axis
-    for (std::size_t axis = 0, half = 1; axis < D; ++axis, half *= 2) {
-      for (std::size_t n = 0; n < half; ++n) from[half + n] = from[n] + next;
-      next *= std::size_t(cells_[axis] + 1);
+    for (std::size_t n = 0; n < depths.size(); ++n) {
+      Index of = at;
+      for (std::size_t axis = 0; axis < D; ++axis) of[axis] += std::int64_t(n >> axis & 1);
+      depths[n] = corner(of);
     }
-    for (std::size_t n = 0; n < depths.size(); ++n) depths[n] = corners_m_[first + from[n]];
     return depths;
   }
   /// Depth of a row of corners at a place between columns.

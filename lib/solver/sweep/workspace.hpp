@@ -37,10 +37,12 @@ class Ring {
   }
   /// From column x on, of row -1 or a later one.
   OutgoingWaves<Real> outgoing(std::int64_t row, std::int64_t x) {
-    return {at(2 * pairs_ * last_outgoing_.place(row + 1, outgoing_rows_), x), pitch_};
+    const int first = 2 * pairs_ * int((row + 1) % outgoing_rows_);
+    return {at(first, x), pitch_};
   }
   InterfaceStates<Real> faces(std::int64_t row, std::int64_t x) {
-    return {at(2 * pairs_ * (outgoing_rows_ + last_faces_.place(row, face_rows_)), x), pitch_};
+    const int first = 2 * pairs_ * (outgoing_rows_ + int(row % face_rows_));
+    return {at(first, x), pitch_};
   }
   int pairs() const { return pairs_; }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
@@ -62,28 +64,9 @@ class Ring {
 
  private:
   static constexpr std::int64_t gap = 16;
-  /// Where the row that was asked for last is: those asked for next are near it, and a division takes longer
-  /// than all else.
-  struct Last {
-    std::int64_t row = 0;
-    int at = 0;
-    /// The remainder of a row's number, of so many rows.
-    int place(std::int64_t asked, int rows) {
-      const auto away = asked - row;
-      if (away >= rows || away <= -rows)
-        at = int(asked % rows);
-      else if (at += int(away); at >= rows)
-        at -= rows;
-      else if (at < 0)
-        at += rows;
-      row = asked;
-      return at;
-    }
-  };
   Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
   std::int64_t first_, pitch_;
   int outgoing_rows_, face_rows_, pairs_;
-  Last last_outgoing_, last_faces_;
   Buffer<Real> values_;
   static constexpr std::int64_t before_all = -(std::int64_t{1} << 32);
   std::vector<std::int64_t> last_;  // row that was put into a block of columns
