@@ -18,7 +18,7 @@ template <class Layout>
 void check_layout() {
   std::set<std::string_view> names;
   std::vector<int> owners(static_cast<std::size_t>(Layout::size), 0);
-  for (const Field& field : Layout::fields) {
+  for (const segy::Field& field : Layout::fields) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name;
     EXPECT_FALSE(field.meaning.empty());
     for (int byte = field.byte; byte < field.byte + size_of(field.type); ++byte) {
@@ -49,7 +49,7 @@ TEST(HeaderLayout, HasNoFieldTwiceAndNoByteTwice) {
 
 TEST(HeaderLayout, CoversEveryByteOfRevision1) {
   int covered = 0;
-  for (const Field& field : TraceLayout::fields) covered += size_of(field.type);
+  for (const segy::Field& field : TraceLayout::fields) covered += size_of(field.type);
   EXPECT_EQ(covered, 232);  // 233 to 240 are unassigned
 }
 

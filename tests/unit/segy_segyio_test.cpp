@@ -38,7 +38,7 @@ void put_expected(const std::string& path, const Gather& gather, const FileForma
     words.set("ns", count);
     words.set("dt", 2000);
     out << "trace";
-    for (const Field& field : TraceLayout::fields)
+    for (const segy::Field& field : TraceLayout::fields)
       if (field.byte != 25)  // the ordinal within the bin is counted while writing
         out << ' ' << field.byte << '=' << words.get(FieldName<TraceLayout>(field));
     out << "\nsamples";
