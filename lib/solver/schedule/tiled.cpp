@@ -49,6 +49,8 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       together_(D == 2 ? 1 : usual_planes),
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
+  for (int axis = 0; axis < D; ++axis)
+    surface_rows_[std::size_t(axis)] = sweeps.corrects_surface(axis) ? free_surface_reach : 0;
   const auto longest_tile = stages(0, steps_per_tile_);
   longest_ = longest(longest_tile);
   for (std::size_t n = 1; n < step.sweeps().size(); ++n)
@@ -536,12 +538,12 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
     march(
         D - 1, {}, needed, stage.fraction, tile.rings[std::size_t(stage.number)], worker,
         [&](const IndexRange& rows_read) {
-          const auto swept = reached(stage.time, rows_read, {}, columns);
-          if (!swept.empty()) return swept;
           // What corrects the first columns of the next stripe is due, too, and reads beyond them.
-          const auto next = reached(stage.time, rows_read, {}, {columns.last, columns.last + beside});
-          return next.empty() ? swept
-                              : IndexRange{std::max(columns.first, columns.last - beside), columns.last};
+          const auto with_next = reached(stage.time, rows_read, {}, {columns.first, columns.last + beside});
+          if (with_next.empty()) return with_next;
+          return IndexRange{
+              std::min(with_next.first, std::max(columns.first, columns.last - beside)),
+              std::min(with_next.last, columns.last)};
         },
         correct,
         [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, 0, swept, worker); });

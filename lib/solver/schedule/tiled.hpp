@@ -157,9 +157,7 @@ class TiledExecutor : public Executor {
   static constexpr std::int64_t read_beside = Layout<D>::block;
   static_assert(max_reach + 1 + free_surface_reach <= read_beside);
   /// How far sweeps along an axis must stay behind what its free surfaces read.
-  std::int64_t surface_rows(int axis) const {
-    return sweeps_.corrects_surface(axis) ? free_surface_reach : 0;
-  }
+  std::int64_t surface_rows(int axis) const { return surface_rows_[std::size_t(axis)]; }
   /// Returns these rows (in 3-D of a plane) and those beside them that free surfaces of an axis read.
   IndexRange with_surface_rows(int axis, const IndexRange& rows) const {
     return {rows.first - surface_rows(axis), rows.last + surface_rows(axis)};
@@ -176,6 +174,7 @@ class TiledExecutor : public Executor {
   std::int64_t stripe_width_;      // columns; in 3-D rows of a plane
   std::int64_t together_;          // rows that a stage does before the next
   std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
+  std::array<std::int64_t, std::size_t(D)> surface_rows_;
   std::int64_t longest_;           // rows from the first to the last stage of a tile
   std::int64_t band_rows_, bands_;
   std::vector<TileInProgress> in_progress_;
