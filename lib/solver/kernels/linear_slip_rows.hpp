@@ -116,10 +116,18 @@ struct TractionRows {
     taken[i] = r + off;
     return off;
   }
+  template <bool Ends, bool Along>
+  [[gnu::always_inline]] Real acts(Real t, std::int64_t i) const {
+    if constexpr (Ends)
+      return ends<Along>(t, i);
+    else
+      return begins<Along>(t, i);
+  }
 };
 
-template <int D, bool Damped, bool Slides, class Real>
-[[gnu::noinline]] void family_ends(std::int64_t n, const SlipPlanes<Real>& planes,
+/// One family, at the end of a step or at the beginning of the next.
+template <bool Ends, int D, bool Damped, bool Slides, class Real>
+[[gnu::noinline]] void family_acts(std::int64_t n, const SlipPlanes<Real>& planes,
                                    const LinearSlipRows<Real>& rows) {
   using Rows = TractionRows<D, Damped, Slides, Real>;
   const OneSystem<D, Real> family(planes);
@@ -129,29 +137,10 @@ template <int D, bool Damped, bool Slides, class Real>
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const auto s = stress.of(i);
-    const Real off0 = normal.template ends<false>(resolved<D>(family.normal, Real(1), s), i);
-    const Real off1 = along1.template ends<true>(resolved<D>(family.m1, Real(0.5), s), i);
+    const Real off0 = normal.template acts<Ends, false>(resolved<D>(family.normal, Real(1), s), i);
+    const Real off1 = along1.template acts<Ends, true>(resolved<D>(family.m1, Real(0.5), s), i);
     Real off2 = 0;
-    if constexpr (D == 3) off2 = along2.template ends<true>(resolved<D>(family.m2, Real(0.5), s), i);
-    stress.set(i, stress_left(family, s, lambda_shares[i], off0, off1, off2));
-  }
-}
-
-template <int D, bool Damped, bool Slides, class Real>
-[[gnu::noinline]] void family_begins(std::int64_t n, const SlipPlanes<Real>& planes,
-                                     const LinearSlipRows<Real>& rows) {
-  using Rows = TractionRows<D, Damped, Slides, Real>;
-  const OneSystem<D, Real> family(planes);
-  const StressRows<D, Real> stress(rows);
-  const Rows normal(rows, 0), along1(rows, 1), along2(rows, D - 1);
-  const Real* __restrict const lambda_shares = rows.coefficients;
-#pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    const auto s = stress.of(i);
-    const Real off0 = normal.template begins<false>(resolved<D>(family.normal, Real(1), s), i);
-    const Real off1 = along1.template begins<true>(resolved<D>(family.m1, Real(0.5), s), i);
-    Real off2 = 0;
-    if constexpr (D == 3) off2 = along2.template begins<true>(resolved<D>(family.m2, Real(0.5), s), i);
+    if constexpr (D == 3) off2 = along2.template acts<Ends, true>(resolved<D>(family.m2, Real(0.5), s), i);
     stress.set(i, stress_left(family, s, lambda_shares[i], off0, off1, off2));
   }
 }
@@ -258,17 +247,14 @@ template <int D, bool Slides, class Real>
   }
 }
 
+template <int D, class Real, bool Damped, bool Slides>
+constexpr LinearSlipKernels<Real> of_family = {family_acts<true, D, Damped, Slides, Real>,
+                                               family_acts<false, D, Damped, Slides, Real>};
+
 template <int D, class Real>
 LinearSlipKernels<Real> linear_of_family(bool damped, bool slides) {
-  if (damped)
-    return slides
-               ? LinearSlipKernels<Real>{family_ends<D, true, true, Real>, family_begins<D, true, true, Real>}
-               : LinearSlipKernels<Real>{family_ends<D, true, false, Real>,
-                                         family_begins<D, true, false, Real>};
-  return slides
-             ? LinearSlipKernels<Real>{family_ends<D, false, true, Real>, family_begins<D, false, true, Real>}
-             : LinearSlipKernels<Real>{family_ends<D, false, false, Real>,
-                                       family_begins<D, false, false, Real>};
+  if (damped) return slides ? of_family<D, Real, true, true> : of_family<D, Real, true, false>;
+  return slides ? of_family<D, Real, false, true> : of_family<D, Real, false, false>;
 }
 
 template <class Real>
