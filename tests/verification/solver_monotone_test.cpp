@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "lab.hpp"
 
@@ -134,6 +135,80 @@ TEST(Monotone, TransmittedAndReflectedPulsesDoNotExceedTheirCoefficients) {
           EXPECT_GT(range_of(pulse, lab, border, 120).largest, 0.97 * through);
         }
       }
+}
+
+/// What a step makes of the wave that travels away from a border, in the cell beside it. Before the border
+/// fields are constant; behind it are the waves that come towards it.
+struct BesideABorder {
+  double w, next;       // the wave in that cell and in the next one
+  double toward, v, s;  // the waves that come towards the border; the fields before it
+  double z, z_before, courant;
+
+  /// Returns the wave that enters by the exact Riemann solution (E8).
+  double entering() const { return (2 * z * (z_before * v - s) + (z - z_before) * toward) / (z + z_before); }
+  bool is_extremum() const { return (w - entering()) * (next - w) <= 0; }
+
+  /// Returns the wave after a step of that pulse's sweep; `turned` cells are counted from the other end.
+  double after(const Pulse<double>& pulse, int order, const Rock& before, const Rock& behind,
+               bool turned) const {
+    constexpr std::int64_t cells = 40, border = 20;
+    const auto place = [&](std::int64_t n) { return turned ? cells - 1 - n : n; };
+    const double way = turned ? -1 : 1;
+    auto medium = pulse.axis == 0 ? uniform_medium(cells, 2, 5, before) : uniform_medium(2, cells, 5, before);
+    const auto index = [&](std::int64_t n, std::int64_t beside) {
+      return pulse.axis == 0 ? Index<2>{place(n), beside} : Index<2>{beside, place(n)};
+    };
+    for (std::int64_t n = border; n < cells; ++n)
+      for (std::int64_t beside = 0; beside < 2; ++beside) put(medium, index(n, beside), behind);
+    Lab<double> lab(medium, edges_all(EdgeLaw::mirror), order, courant * 5 / pulse.speed(behind));
+    lab.keep_monotone();
+    for (std::int64_t n = 0; n < cells; ++n)
+      for (std::int64_t beside = 0; beside < 2; ++beside) {
+        const auto at = index(n, beside);
+        const double away = n == border ? w : next;
+        lab(pulse.v, at[0], at[1]) = way * (n < border ? v : (away + toward) / (2 * z));
+        lab(pulse.s, at[0], at[1]) = n < border ? s : (toward - away) / 2;
+      }
+    lab.sweep(pulse.axis, 1);
+    return z * way * pulse.cell(lab, pulse.v, place(border)) - pulse.cell(lab, pulse.s, place(border));
+  }
+};
+
+// Proves (C1).
+TEST(Monotone, BesideABorderAWaveStaysBetweenItselfAndWhatEntersAndAnExtremumIsOfFirstOrder) {
+  std::mt19937 random(1);
+  const auto draw = [&](double least, double largest) {
+    return least + (largest - least) * double(random()) / double(std::mt19937::max());
+  };
+  int between = 0, extrema = 0, at_the_bound = 0;
+  for (int n = 0; n < 150; ++n)
+    for (const auto& pulse : pulses<double>()) {
+      const bool into_soft = n % 2;
+      const Rock &before = into_soft ? rock : soft, &behind = into_soft ? soft : rock;
+      BesideABorder border{draw(-1, 1),
+                           draw(-4, 4),
+                           draw(-1, 1),
+                           0,
+                           draw(-1, 1),
+                           pulse.impedance(behind),
+                           pulse.impedance(before),
+                           draw(0.1, into_soft ? 0.35 : 0.95)};
+      border.v = draw(-1, 1) / border.z_before;
+      const double entering = border.entering(), rounding = 1e-9;
+      const double after = border.after(pulse, 3 + 2 * (n % 3), before, behind, n % 4 > 1);
+      if (border.is_extremum()) {
+        ++extrema;
+        EXPECT_NEAR(after, border.w - border.courant * (border.w - entering), rounding) << n;
+      } else {
+        ++between;
+        EXPECT_GE(after, std::min(border.w, entering) - rounding) << n;
+        EXPECT_LE(after, std::max(border.w, entering) + rounding) << n;
+        at_the_bound += std::abs(after - entering) < rounding;
+      }
+    }
+  EXPECT_GT(between, 100);
+  EXPECT_GT(extrema, 100);
+  EXPECT_GT(at_the_bound, 20);
 }
 
 }  // namespace
