@@ -218,7 +218,8 @@ std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoic
   auto& tiling = scene.numerics.tiling;
   if (D == 2 && tiling.steps == 0 && scene.subdomain.is_whole()) tiling.steps = 6;
   const auto lowered = unrelax(scene.model.medium, *scene.attenuation);
-  return lowered.empty() ? std::vector<std::string>{} : std::vector{lowered};
+  if (lowered.empty()) return {};
+  return {lowered};
 }
 
 template <int D>
