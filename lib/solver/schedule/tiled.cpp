@@ -541,9 +541,8 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
           // What corrects the first columns of the next stripe is due, too, and reads beyond them.
           const auto with_next = reached(stage.time, rows_read, {}, {columns.first, columns.last + beside});
           if (with_next.empty()) return with_next;
-          return IndexRange{
-              std::min(with_next.first, std::max(columns.first, columns.last - beside)),
-              std::min(with_next.last, columns.last)};
+          return IndexRange{std::min(with_next.first, std::max(columns.first, columns.last - beside)),
+                            std::min(with_next.last, columns.last)};
         },
         correct,
         [&](std::int64_t step, const IndexRange& swept) { end_across_z(stage, step, 0, swept, worker); });

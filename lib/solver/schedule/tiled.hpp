@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -175,7 +176,7 @@ class TiledExecutor : public Executor {
   std::int64_t together_;          // rows that a stage does before the next
   std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
   std::array<std::int64_t, std::size_t(D)> surface_rows_;
-  std::int64_t longest_;           // rows from the first to the last stage of a tile
+  std::int64_t longest_;  // rows from the first to the last stage of a tile
   std::int64_t band_rows_, bands_;
   std::vector<TileInProgress> in_progress_;
   std::vector<Worker> workers_;
