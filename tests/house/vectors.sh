@@ -197,10 +197,12 @@ want_linear_slip() {
       for (kernel in seen) {
         ++kernels
         split(kernel, of, /[<,] ?/)
-        cube = of[2] == 3
+        # family_acts<ends, dimensions, damped, slides, number>
+        family = kernel ~ /^family/
+        cube = of[family ? 3 : 2] == 3
         if (kernel ~ /^crossing_begin/) least = of[3] == "true" ? 20 : cube ? 12 : 6
         else if (kernel ~ /^crossing/) least = cube ? 90 : 27
-        else if (kernel ~ /^family_begins/ && of[3] == "false") least = (cube ? 40 : 18) + (of[4] == "true" ? (cube ? 20 : 8) : 0)
+        else if (of[2] == "false" && of[4] == "false") least = (cube ? 40 : 18) + (of[5] == "true" ? (cube ? 20 : 8) : 0)
         else least = cube ? 80 : 36
         if (most[kernel] >= least) continue
         printf "%s: %s: %d operations on vectors of %d bits in a loop, expected %d\n", level, kernel, most[kernel], width, least
