@@ -378,9 +378,8 @@ TEST_P(ByElasticConstants, ASceneGivesTheTracesOfItsParameters) {
   std::visit(
       [](const auto& scene) {
         const auto wanted = samples_of(shoot(scene, 1)), found = samples_of(shoot(by_constants_of(scene), 1));
-        const auto rounded = scene.model.fracture_sets.empty()
-                                 ? wanted
-                                 : samples_of(shoot(next_in_single_precision(scene), 1));
+        const bool slips = !scene.model.fracture_sets.empty(), grows = slips && long_form();
+        const auto rounded = grows ? samples_of(shoot(next_in_single_precision(scene), 1)) : wanted;
         const auto components = scene.recording.components.size(), of_one = wanted.size() / components;
         for (std::size_t component = 0; component < components; ++component) {
           double peak = 0, apart = 0, by_rounding = 0;
@@ -389,7 +388,8 @@ TEST_P(ByElasticConstants, ASceneGivesTheTracesOfItsParameters) {
             apart = std::max(apart, std::abs(double(found[n] - wanted[n])));
             by_rounding = std::max(by_rounding, std::abs(double(rounded[n] - wanted[n])));
           }
-          EXPECT_LT(apart, 1e-5 * peak + few_roundings * by_rounding) << component;
+          // Friction amplifies rounding, over the time of the long form without a bound of its own.
+          EXPECT_LT(apart, (slips ? 1e-4 : 1e-5) * peak + few_roundings * by_rounding) << component;
         }
       },
       GetParam().scene(Cut::columns));
