@@ -81,6 +81,17 @@ std::vector<Point<D>> normals_of(const Settings& settings) {
 
 std::uint64_t seed_of(const Settings& settings) { return std::uint64_t(settings.seed.value_or(1)); }
 
+/// Sets the dip, and in 3-D the azimuth, of planes with this normal.
+template <class Planes>
+void set_dip(const Point<2>& normal, Planes& planes) {
+  planes.dip_deg = dip_of_normal(normal);
+}
+template <class Planes>
+void set_dip(const Point<3>& normal, Planes& planes) {
+  const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
+  planes.dip_deg = dip_deg, planes.azimuth_deg = azimuth_deg;
+}
+
 template <int D>
 RegionIn<D> region_of(const Settings& settings) {
   const int given =
@@ -129,11 +140,7 @@ RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const
   Scatter scatter;
   scatter.count = settings.count;
   scatter.seed = seed_of(settings);
-  if constexpr (D == 2) scatter.dip_deg = dip_of_normal(normal);
-  if constexpr (D == 3) {
-    const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
-    scatter.dip_deg = dip_deg, scatter.azimuth_deg = azimuth_deg;
-  }
+  set_dip(normal, scatter);
   for (std::size_t axis = 0; axis < D; ++axis)
     scatter.length_m = std::max(scatter.length_m, (high[axis] - low[axis]) / 10);
   scatter.thickness_m = scatter.length_m / 10;
@@ -361,11 +368,7 @@ FractureNetwork network_of(const Settings& s) {
   of.seed = seed_of(s);
   of.concentration = s.concentration;
   const auto normal = in_place("--dip", [&] { return normal_of<D>(s.dips[0]); });
-  if constexpr (D == 2) of.dip_deg = dip_of_normal(normal);
-  if constexpr (D == 3) {
-    const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
-    of.dip_deg = dip_deg, of.azimuth_deg = azimuth_deg;
-  }
+  set_dip(normal, of);
   const auto lengths = in_place(D == 2 ? "--length" : "--radius", [&] {
     const auto& text = D == 2 ? s.length : s.radius;
     auto numbers = parse_numbers(text, ':');
@@ -469,11 +472,13 @@ FractureCount put_single(const Settings& settings, Model<D>& model, const cli::C
   set.traces = traces_of(settings, model.grid(), context);
   if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
   const auto& first = set.traces.front();
-  if constexpr (D == 2) set.systems = {system_of<D>(settings, normal_between_tips(first))};
-  if constexpr (D == 3) set.systems = {system_of<D>(settings, normal_of_polygon(first))};
   set.on_faces = settings.open || settings.faces;
-  if constexpr (D == 2)
+  if constexpr (D == 2) {
+    set.systems = {system_of<D>(settings, normal_between_tips(first))};
     if (set.on_faces) place_on_faces(settings, model.grid(), set.traces, context);
+  } else {
+    set.systems = {system_of<D>(settings, normal_of_polygon(first))};
+  }
   const auto count = add_single_fractures(model, set);
   if (!settings.prestress.empty())
     set_prestress(model, model.fracture_sets.size(),

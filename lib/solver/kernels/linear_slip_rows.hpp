@@ -54,21 +54,20 @@ template <int D, class Real>
 [[gnu::always_inline]] inline CellStress<Real> stress_left(const OneSystem<D, Real>& family,
                                                            const CellStress<Real>& s, Real lambda_share,
                                                            Real off0, Real off1, Real off2) {
-  const Real *const m1 = family.m1, *const m2 = family.m2;
   const Real even = lambda_share * off0, across = off0 - even;
   // `normal` counts off-diagonal components twice.
   const Real along = Real(0.5) * across, *const normal = family.normal;
-  const Real s0 = s.s0 - (even + across * normal[0] + (m1[0] * off1 + (D == 3 ? m2[0] * off2 : Real(0))));
-  const Real s1 = s.s1 - (even + across * normal[1] + (m1[1] * off1 + (D == 3 ? m2[1] * off2 : Real(0))));
+  const Real s0 = s.s0 - (even + across * normal[0] + along_planes(family, 0, off1, off2));
+  const Real s1 = s.s1 - (even + across * normal[1] + along_planes(family, 1, off1, off2));
   if constexpr (D == 2)
-    return {s0, s1, s.s2 - (along * normal[2] + m1[2] * off1), 0, 0, 0};
+    return {s0, s1, s.s2 - (along * normal[2] + along_planes(family, 2, off1, off2)), 0, 0, 0};
   else
     return {s0,
             s1,
-            s.s2 - (even + across * normal[2] + (m1[2] * off1 + m2[2] * off2)),
-            s.s3 - (along * normal[3] + (m1[3] * off1 + m2[3] * off2)),
-            s.s4 - (along * normal[4] + (m1[4] * off1 + m2[4] * off2)),
-            s.s5 - (along * normal[5] + (m1[5] * off1 + m2[5] * off2))};
+            s.s2 - (even + across * normal[2] + along_planes(family, 2, off1, off2)),
+            s.s3 - (along * normal[3] + along_planes(family, 3, off1, off2)),
+            s.s4 - (along * normal[4] + along_planes(family, 4, off1, off2)),
+            s.s5 - (along * normal[5] + along_planes(family, 5, off1, off2))};
 }
 
 /// Memory and coefficients of component k of the traction of one family.

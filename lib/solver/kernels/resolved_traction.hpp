@@ -50,6 +50,13 @@ struct OneSystem {
   }
 };
 
+/// What a change (d1, d2) along the tangents is to component c of the stress.
+template <int D, class Real>
+[[gnu::always_inline]] inline Real along_planes(const OneSystem<D, Real>& system, int c, Real d1, Real d2) {
+  const Real second = D == 3 ? system.m2[c] * d2 : Real(0);
+  return system.m1[c] * d1 + second;
+}
+
 /// Prestress and opening of the planes of one system.
 template <class Real>
 struct OnSystem {

@@ -27,6 +27,10 @@ struct Beginning {
         strengths(rows.retained + (D - 1) * rows.retained_pitch),
         losses(rows.retained + D * rows.retained_pitch),
         losses2(rows.retained + (2 * D - 2) * rows.retained_pitch) {}
+  /// What the second component of a list is, which 2-D has not.
+  [[gnu::always_inline]] static Real second(const Real* list, std::int64_t i) {
+    return D == 3 ? list[i] : Real(0);
+  }
 };
 
 /// theta c.
@@ -43,7 +47,7 @@ template <int D, class Real>
 [[gnu::always_inline]] inline Real exponential_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
                                                    Real u2, Real size, Real strength, Real relaxation) {
   // Along the traction of the end: its start, and that less the decrease at the beginning.
-  const Real old = began.strengths[i], b1 = began.tau1[i], b2 = D == 3 ? began.tau2[i] : Real(0);
+  const Real old = began.strengths[i], b1 = began.tau1[i], b2 = began.second(began.tau2, i);
   const Real start = u1 * b1 + u2 * b2;
   const Real from = D == 2 ? start - (start < 0 ? -began.losses[i] : began.losses[i])
                            : start * (1 - began.losses[i] / greater(length(b1, b2), slip::least<Real>));
@@ -58,7 +62,7 @@ template <int D, class Real>
 template <int D, class Real>
 [[gnu::always_inline]] inline Real centred_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
                                                Real u2, Real size, Real strength, Real relaxation) {
-  const Real old = began.strengths[i], b2 = D == 3 ? began.tau2[i] : Real(0);
+  const Real old = began.strengths[i], b2 = began.second(began.tau2, i);
   const Real start = u1 * began.tau1[i] + u2 * b2;
   const Real excess = slip::excess_after(start - old, (size - start) - (strength - old),
                                          Real(0.5) * (strength + old), relaxation);
@@ -116,7 +120,7 @@ template <class Real>
 template <int D, Half Now, class Real>
 [[gnu::always_inline]] inline void change_ahead(const Beginning<D, Real>& began, std::int64_t i, Real& d1,
                                                 Real& d2) {
-  const Real ahead1 = began.losses[i], ahead2 = D == 3 ? began.losses2[i] : Real(0);
+  const Real ahead1 = began.losses[i], ahead2 = began.second(began.losses2, i);
   if constexpr (Now == Half::beginning) {
     d1 = -ahead1;
     d2 = -ahead2;
@@ -142,7 +146,6 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
   const Real* __restrict const slips_per_pa = rows.slip_per_pa;
   const OneSystem<D, Real> one(planes);
   const OnSystem<Real> on(rows, D - 1);
-  const Real *const m1 = one.m1, *const m2 = one.m2;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], s3 = D == 2 ? Real(0) : r3[i],
@@ -154,7 +157,7 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
     // no vectors of a structure that is put together anew.)
     constexpr bool ahead = centred && Now == Half::end;
     const Real t1 = ahead ? of.t1 + began.losses[i] : of.t1,
-               t2 = ahead && D == 3 ? of.t2 + began.losses2[i] : of.t2, strength = of.strength;
+               t2 = ahead ? of.t2 + began.second(began.losses2, i) : of.t2, strength = of.strength;
     const Real size = !ahead ? of.size : D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
@@ -177,13 +180,13 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
     Real d1 = u1 * (now - size), d2 = u2 * (now - size);
     if constexpr (ahead && D == 3) change_of_turning(began.tau1[i], began.tau2[i], t1, t2, size, now, d1, d2);
     if constexpr (centred) change_ahead<D, Now>(began, i, d1, d2);
-    r0[i] = s0 + (m1[0] * d1 + (D == 3 ? m2[0] * d2 : Real(0)));
-    r1[i] = s1 + (m1[1] * d1 + (D == 3 ? m2[1] * d2 : Real(0)));
-    r2[i] = s2 + (m1[2] * d1 + (D == 3 ? m2[2] * d2 : Real(0)));
+    r0[i] = s0 + along_planes(one, 0, d1, d2);
+    r1[i] = s1 + along_planes(one, 1, d1, d2);
+    r2[i] = s2 + along_planes(one, 2, d1, d2);
     if constexpr (D == 3) {
-      r3[i] = s3 + (m1[3] * d1 + m2[3] * d2);
-      r4[i] = s4 + (m1[4] * d1 + m2[4] * d2);
-      r5[i] = s5 + (m1[5] * d1 + m2[5] * d2);
+      r3[i] = s3 + along_planes(one, 3, d1, d2);
+      r4[i] = s4 + along_planes(one, 4, d1, d2);
+      r5[i] = s5 + along_planes(one, 5, d1, d2);
     }
   }
 }
