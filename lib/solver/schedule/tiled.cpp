@@ -442,7 +442,7 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     sweeps_.correct_flank_surfaces(row, steps);
     worker.work.time() = {stage.time.step, stage.sweep};
     march(
-        1, {0, 0, row}, steps, stage.fraction, ring, worker,
+        stage, {0, 0, row}, steps, ring, worker,
         [&](const IndexRange& lines_read) {
           return reached(stage.time, {row - flank_rows, row + flank_rows + 1}, lines_read, whole_lines());
         },
@@ -458,9 +458,10 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
 /// each that has any, `end` after it.
 template <int D, class Real>
 template <class Reached, class Begin, class End>
-void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRange& steps, Real fraction,
+void TiledExecutor<D, Real>::march(const Stage& stage, const Index<D>& at, const IndexRange& steps,
                                    Ring<Real>& ring, Worker& worker, Reached&& reached, Begin&& begin,
                                    End&& end) {
+  const int axis = stage.kind == Stage::along_z ? D - 1 : 1;
   // While nothing is swept what was zero stays so: only what each step reads anew is looked at.
   auto zero_to = std::numeric_limits<std::int64_t>::min();
   for (auto step = steps.first; step < steps.last; ++step) {
@@ -477,7 +478,7 @@ void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRang
               [&](std::int64_t row, const IndexRange& zeros) { sweeps_.skip(row + reach, zeros, ring); });
     worker.ahead.fetch();
     begin(step);
-    sweeps_.across(axis, at, step, swept, fraction, ring, worker.work);
+    sweeps_.across(axis, at, step, swept, stage.fraction, ring, worker.work);
     end(step, swept);
   }
 }
@@ -536,7 +537,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
     correct(step);
   if constexpr (D == 2) {
     march(
-        D - 1, {}, needed, stage.fraction, tile.rings[std::size_t(stage.number)], worker,
+        stage, {}, needed, tile.rings[std::size_t(stage.number)], worker,
         [&](const IndexRange& rows_read) {
           // What corrects the first columns of the next stripe is due, too, and reads beyond them.
           const auto with_next = reached(stage.time, rows_read, {}, {columns.first, columns.last + beside});
@@ -557,7 +558,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = tile.rings[std::size_t(stage.number * cut_cells_ + y)];
       march(
-          D - 1, {0, y, 0}, needed, stage.fraction, ring, worker,
+          stage, {0, y, 0}, needed, ring, worker,
           [&](const IndexRange& rows_read) {
             return reached(stage.time, rows_read, with_surface_rows(D - 1, {y, y + 1}), whole_lines());
           },

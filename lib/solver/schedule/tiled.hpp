@@ -121,7 +121,7 @@ class TiledExecutor : public Executor {
   void end_across_z(const Stage& stage, std::int64_t step, std::int64_t y, const IndexRange& cells,
                     Worker& worker);
   template <class Reached, class Begin, class End>
-  void march(int axis, const Index<D>& at, const IndexRange& steps, Real fraction, Ring<Real>& ring,
+  void march(const Stage& stage, const Index<D>& at, const IndexRange& steps, Ring<Real>& ring,
              Worker& worker, Reached&& reached, Begin&& begin, End&& end);
   IndexRange reached(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
                      const IndexRange& cells) const;

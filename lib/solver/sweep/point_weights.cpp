@@ -353,11 +353,23 @@ bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int veloci
   return true;
 }
 
+/// The value of a velocity at a point, or a force on it, from the cells that are usable.
+template <int D>
+struct VelocityAtPoint {
+  const Layout<D>& layout;
+  const Domain<D>& domain;
+  Index<D> centre;
+  Point<D> point_m;
+  std::array<AxisCells, std::size_t(D)> usable;
+  int row;
+  bool of_force;
+};
+
 /// Takes away what the velocity lies off at the interface of rocks that the cells end at on a side.
 template <int D>
-void add_interface_correction(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& centre,
-                              const Point<D>& point_m, const std::array<AxisCells, std::size_t(D)>& usable,
-                              int axis, int side, int row, bool of_force, std::vector<ValueWeight>& weights) {
+void add_interface_correction(const VelocityAtPoint<D>& value, int axis, int side,
+                              std::vector<ValueWeight>& weights) {
+  const auto& [layout, domain, centre, point_m, usable, row, of_force] = value;
   const auto& across = usable[std::size_t(axis)];
   Index<D> last = centre, behind = centre;
   last[axis] = side ? across.high : across.low;
@@ -386,9 +398,10 @@ void add_interface_correction(const Layout<D>& layout, const Domain<D>& domain, 
 /// The correction of velocity of the images beyond a free surface of a solid, and for forces what the plain
 /// image of the transposed scheme leaves below it (A23), as weights.
 template <int D>
-void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& centre,
-                            const Point<D>& point_m, std::array<AxisCells, std::size_t(D)> usable, int axis,
-                            int side, int row, bool of_force, std::vector<ValueWeight>& weights) {
+void add_surface_correction(const VelocityAtPoint<D>& value, int axis, int side,
+                            std::vector<ValueWeight>& weights) {
+  const auto& [layout, domain, centre, point_m, cells, row, of_force] = value;
+  auto usable = cells;
   auto& across = usable[std::size_t(axis)];
   const std::int64_t last = side ? across.high : across.low;
   const double position = domain.grid.position(axis, point_m[axis]);
@@ -521,14 +534,13 @@ static std::vector<ValueWeight> weights_of_value(const Layout<D>& layout, const 
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   const auto usable = cells_of_point(domain, centre, place, field_row, fluid);
   std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable.cells, field_row);
+  const VelocityAtPoint<D> value{layout, domain, centre, place, usable.cells, field_row, of_force};
   for (int axis = 0; !fluid && field_row < D && axis < D; ++axis)
     for (const int of : {0, 1}) {
       if (usable.ends_free[std::size_t(axis)][std::size_t(of)])
-        add_surface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, of_force,
-                               weights);
+        add_surface_correction(value, axis, of, weights);
       else
-        add_interface_correction(layout, domain, centre, place, usable.cells, axis, of, field_row, of_force,
-                                 weights);
+        add_interface_correction(value, axis, of, weights);
     }
   return weights;
 }

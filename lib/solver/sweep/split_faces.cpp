@@ -309,11 +309,11 @@ void SplitFaces<D, Real>::advance(std::size_t n, const Swept& swept) {
 /// wave come back.
 template <int D, class Real>
 void SplitFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale,
-                                      const Real* face, std::int64_t pitch, std::int64_t i, Real side,
+                                      InterfaceStates<Real> face, std::int64_t i, Real side,
                                       const SweptRows<Real>& rows) const {
   const auto material = state_.material_from(state_.layout.line_index(line), x, faces_[n].axis);
   const Real b = *material.b, zp = *material.zp, zs = *material.zs, size = std::abs(scale);
-  const auto changes = changes_of(n, tractions_at(face, pitch), size);
+  const auto changes = changes_of(n, tractions_at(face), size);
   for (std::size_t pair = 0; pair < D; ++pair) {
     if (changes[pair] == 0) continue;
     const Real moved = side * scale * b * changes[pair], strained = size * b * changes[pair];
@@ -330,9 +330,9 @@ void SplitFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int
 
 /// Returns the tractions of all pairs of a face state.
 template <int D, class Real>
-std::array<Real, D> SplitFaces<D, Real>::tractions_at(const Real* face, std::int64_t pitch) {
+std::array<Real, D> SplitFaces<D, Real>::tractions_at(InterfaceStates<Real> face) {
   std::array<Real, D> all;
-  for (int pair = 0; pair < D; ++pair) all[std::size_t(pair)] = face[(2 * pair + 1) * pitch];
+  for (int pair = 0; pair < D; ++pair) all[std::size_t(pair)] = *face.s(pair);
   return all;
 }
 
@@ -349,17 +349,17 @@ void SplitFaces<D, Real>::add(int axis, std::int64_t line, const IndexRange& col
         find(axis, state_.layout.line_number(next), {columns.first + shift, columns.last + shift});
     for (auto n = first; n < last; ++n) {
       const auto x = faces_[n].x - shift, i = x - columns.first;
-      add_to_cell(n, line, x, scale, hi.first + i, hi.pitch, i, 1, rows);
+      add_to_cell(n, line, x, scale, hi.at(i), i, 1, rows);
     }
   }
   const auto [first, last] = find(axis, line, columns);
   for (auto n = first; n < last; ++n) {
     if (!faces_[n].inside) continue;
     const auto i = faces_[n].x - columns.first;
-    add_to_cell(n, line, faces_[n].x, scale, lo.first + i, lo.pitch, i, -1, rows);
+    add_to_cell(n, line, faces_[n].x, scale, lo.at(i), i, -1, rows);
     if (!remember) continue;
     if (faces_[n].law.any()) {
-      advance(n, solve(n, tractions_at(lo.first + i, lo.pitch), std::abs(scale)));
+      advance(n, solve(n, tractions_at(lo.at(i)), std::abs(scale)));
       continue;
     }
     for (int pair = 0; pair < D; ++pair) {

@@ -91,7 +91,7 @@ class SplitFaces : public FaceTreatment<D, Real> {
     std::array<Real, 2> stiffness;
     std::array<Real, D> change;  // of the mean traction
   };
-  static std::array<Real, D> tractions_at(const Real* face, std::int64_t pitch);
+  static std::array<Real, D> tractions_at(InterfaceStates<Real> face);
   std::array<Real, D> changes_of(std::size_t n, const std::array<Real, D>& welded, Real size) const;
   Swept solve(std::size_t n, const std::array<Real, D>& welded, Real size) const;
   void advance(std::size_t n, const Swept& swept);
@@ -100,8 +100,8 @@ class SplitFaces : public FaceTreatment<D, Real> {
   void find_along(Face& face) const;
   bool crossed(const Face& face) const;
   void put_images(std::size_t n);
-  void add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale, const Real* face,
-                   std::int64_t pitch, std::int64_t i, Real side, const SweptRows<Real>& rows) const;
+  void add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale, InterfaceStates<Real> face,
+                   std::int64_t i, Real side, const SweptRows<Real>& rows) const;
   /// Places of the first face of an axis whose cell behind is in these columns of a line, and of the one
   /// after the last.
   std::array<std::size_t, 2> find(int axis, std::int64_t line, const IndexRange& columns) const;
