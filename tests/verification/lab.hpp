@@ -43,20 +43,20 @@ class Lab {
         domain_(domain_with(make_domain(medium_, edges, 1, {}, order), std::move(split))),
         state_(std::make_unique<State<2, Real>>(
             make_state<2, Real>(domain_.grid.shape, domain_.material_kind()))),
-        sweeps_(*state_, domain_, order),
+        sweeps_(std::make_unique<Sweeps<2, Real>>(*state_, domain_, order)),
         splitting_(splitting(2, time_order)) {
     fill_material(*state_, domain_, medium_, dt_s);
-    sweeps_.split_faces(domain_, dt_s, 1);
+    sweeps_->split_faces(domain_, dt_s, 1);
   }
   Real& operator()(Row row, std::int64_t i, std::int64_t k) { return state_->field_row({0, k}, row)[i]; }
   const Grid<2>& grid() const { return domain_.grid; }
   State<2, Real>& state() { return *state_; }
   const Domain<2>& domain() const { return domain_; }
-  SplitFaces<2, Real>* split() { return sweeps_.split(); }
+  SplitFaces<2, Real>* split() { return sweeps_->split(); }
   double energy() const { return solver::energy(*state_, domain_, medium_); }
 
-  void keep_monotone() { sweeps_.keep_monotone(); }
-  void sweep(int axis, double part) { sweeps_.along(axis, Real(part)); }
+  void keep_monotone() { sweeps_->keep_monotone(); }
+  void sweep(int axis, double part) { sweeps_->along(axis, Real(part)); }
   /// The step of (E3) or (E16).
   void step() {
     for (const auto& [axis, part] : splitting_) sweep(axis, part);
@@ -82,7 +82,7 @@ class Lab {
   Medium<2> medium_;
   Domain<2> domain_;
   std::unique_ptr<State<2, Real>> state_;  // the sweeps keep a reference
-  Sweeps<2, Real> sweeps_;
+  std::unique_ptr<Sweeps<2, Real>> sweeps_;
   std::vector<SweepFraction> splitting_;
 };
 

@@ -110,13 +110,12 @@ static auto motions_of(const RunOfValues<std::size_t(D + D * D), Real>& waves) {
   return [&waves](std::size_t wave, std::size_t pair) { return waves.values[D + D * wave + pair]; };
 }
 
-/// All waves of a run of cells of a level row whose stencils are whole (theory.md (T4)): reconstruction is
-/// linear, so components are reconstructed before they are turned. `at` is the place of the first.
+/// In a level row (theory.md (T4)) components are reconstructed before they are turned, since reconstruction
+/// is linear.
 template <int D, class Real>
-void AnisotropicCells<D, Real>::reconstruct_run(int axis, const IndexRange& run, const Kernels<Real>& kernels,
-                                                std::int64_t stride, std::int64_t at, const Pairs& pairs,
-                                                const Real* b, Real scale,
-                                                OutgoingWaves<Real> outgoing) const {
+void AnisotropicCells<D, Real>::reconstruct_run(const IndexRange& run, std::int64_t at,
+                                                const Row& row) const {
+  const auto& [axis, kernels, stride, pairs, b, scale, outgoing, metric] = row;
   Real up[D][D][cells_at_once], down[D][D][cells_at_once];  // [wave][pair]
   Real sizes[D][cells_at_once];
   Waves of;
@@ -133,20 +132,18 @@ void AnisotropicCells<D, Real>::reconstruct_run(int axis, const IndexRange& run,
                               sizes[wave]);
       put_components<D>(n, motions_of<D>(of), sizes, to_pair);
     };
-    turn(up, [&](int p) { return outgoing.up(p) + to; });
-    turn(down, [&](int p) { return outgoing.down(p) + to; });
+    turn(up, [&](int p) { return row.outgoing.up(p) + to; });
+    turn(down, [&](int p) { return row.outgoing.down(p) + to; });
   }
 }
 
-/// All waves of a run of cells of a curvilinear row whose stencils are whole. Its faces have different sizes:
-/// each wave is one pair of numbers, as across the rows (WavePair).
+/// The faces of a curvilinear row have different sizes: each wave is one pair of numbers, as across the rows
+/// (WavePair).
 template <int D, class Real>
-void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(int axis, const IndexRange& run,
-                                                            const Kernels<Real>& kernels, std::int64_t stride,
-                                                            std::int64_t at, const Pairs& pairs,
-                                                            const Real* b, Real scale,
-                                                            const CurvilinearAlong<Real>& metric,
-                                                            OutgoingWaves<Real> outgoing) const {
+void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(const IndexRange& run, std::int64_t at,
+                                                            const Row& row) const {
+  const auto& [axis, kernels, stride, pairs, b, scale, outgoing, of_row] = row;
+  const auto& metric = *of_row;
   const Real sign = scale < 0 ? -1 : 1;
   WavesOfRun<D, Real> waves;
   Real mean[cells_at_once], turned[D][cells_at_once], traction[D][cells_at_once], sum[cells_at_once];
@@ -176,17 +173,16 @@ void AnisotropicCells<D, Real>::reconstruct_curvilinear_run(int axis, const Inde
     }
     waves.reconstruct(
         n, reach_, kernels, [&](std::size_t wave) { return of.values[wave]; }, b + to, scale);
-    put_components<D>(n, motions_of<D>(of), waves.up, [&](int p) { return outgoing.up(p) + to; });
-    put_components<D>(n, motions_of<D>(of), waves.down, [&](int p) { return outgoing.down(p) + to; });
+    put_components<D>(n, motions_of<D>(of), waves.up, [&](int p) { return row.outgoing.up(p) + to; });
+    put_components<D>(n, motions_of<D>(of), waves.down, [&](int p) { return row.outgoing.down(p) + to; });
   }
 }
 
 template <int D, class Real>
 template <int Order>
-void AnisotropicCells<D, Real>::reconstruct_ending(int axis, const Ending& ending, std::int64_t stride,
-                                                   std::int64_t at, const Pairs& pairs, Real b, Real scale,
-                                                   const CurvilinearAlong<Real>* metric,
-                                                   OutgoingWaves<Real> outgoing) const {
+void AnisotropicCells<D, Real>::reconstruct_ending(const Ending& ending, std::int64_t at,
+                                                   const Row& row) const {
+  const auto& [axis, kernels, stride, pairs, b, scale, outgoing, metric] = row;
   constexpr int reach = reach_of(Order), count = 2 * reach + 1;
   const auto& of = media_[std::size_t(list_[ending.cell].medium)][std::size_t(axis)];
   MotionAt<Real> all[D][count];
@@ -200,7 +196,7 @@ void AnisotropicCells<D, Real>::reconstruct_ending(int axis, const Ending& endin
   std::array<Real, std::size_t(D)> up{}, down{};
   for (std::size_t wave = 0; wave < D; ++wave) {
     const Real* const motion = of.waves.data() + D + D * wave;
-    const Real z = of.waves[wave], courant = sign * scale * z * b;
+    const Real z = of.waves[wave], courant = sign * scale * z * b[at];
     Real v_of[count] = {}, s_of[count] = {}, of_up = 0, of_down = 0, other = 0;
     for (int k = 0; k < count; ++k)
       for (std::size_t p = 0; p < D; ++p)
@@ -214,25 +210,19 @@ void AnisotropicCells<D, Real>::reconstruct_ending(int axis, const Ending& endin
 }
 
 template <int D, class Real>
-void AnisotropicCells<D, Real>::reconstruct(int axis, std::int64_t line, const IndexRange& columns,
-                                            const Kernels<Real>& kernels, std::int64_t stride,
-                                            const Pairs& pairs, const Real* b, Real scale,
-                                            OutgoingWaves<Real> outgoing,
-                                            const CurvilinearAlong<Real>* metric) const {
+void AnisotropicCells<D, Real>::reconstruct(std::int64_t line, const IndexRange& columns,
+                                            const Row& row) const {
   if (empty()) return;
   const auto cells = list_.in(line, columns);
   if (cells.empty()) return;
-  const auto& endings = endings_[std::size_t(axis)];
+  const auto& endings = endings_[std::size_t(row.axis)];
   auto ending = std::lower_bound(endings.begin(), endings.end(), cells.first,
                                  [](const Ending& one, std::int64_t cell) { return one.cell < cell; });
   for (auto n = cells.first; n < cells.last;) {
     const auto at = list_[n].x - columns.first;
     if (ending != endings.end() && ending->cell == n) {
       const auto as = [&]<std::size_t... N>(std::index_sequence<N...>) {
-        ((ending->reach == reach_of(orders[N])
-              ? reconstruct_ending<orders[N]>(axis, *ending, stride, at, pairs, b[at], scale, metric,
-                                              outgoing)
-              : void()),
+        ((ending->reach == reach_of(orders[N]) ? reconstruct_ending<orders[N]>(*ending, at, row) : void()),
          ...);
       };
       as(std::make_index_sequence<std::size_t(order_count)>());
@@ -241,10 +231,10 @@ void AnisotropicCells<D, Real>::reconstruct(int axis, std::int64_t line, const I
     }
     const auto end =
         list_.end_of_run(n, ending != endings.end() ? std::min(ending->cell, cells.last) : cells.last);
-    if (metric)
-      reconstruct_curvilinear_run(axis, {n, end}, kernels, stride, at, pairs, b, scale, *metric, outgoing);
+    if (row.metric)
+      reconstruct_curvilinear_run({n, end}, at, row);
     else
-      reconstruct_run(axis, {n, end}, kernels, stride, at, pairs, b, scale, outgoing);
+      reconstruct_run({n, end}, at, row);
     n = end;
   }
 }
@@ -272,21 +262,20 @@ void AnisotropicCells<D, Real>::impedances_beside(int axis, std::int64_t line, c
 }
 
 template <int D, class Real>
-void AnisotropicCells<D, Real>::solve(int axis, const Sides& sides, const IndexRange& columns,
-                                      OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                                      const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                                      InterfaceStates<Real> faces, const Real* half_face) const {
+void AnisotropicCells<D, Real>::solve(const RowFaces<D, Real>& of, const MaterialRows<Real>& lo,
+                                      const MaterialRows<Real>& hi, const Real* half_face) const {
   if (empty()) return;
   RunOfImpedances<D, Real> of_lo, of_hi;
+  const auto shift = of.shift();
   each_run_of_faces(
-      list_, sides.lo, sides.hi, sides.shift, columns, cells_at_once, [&](const IndexRange& run) {
-        const auto i = run.first - columns.first;
-        impedances_beside(axis, sides.lo, {run.first - sides.shift, run.last - sides.shift}, lo, i, of_lo);
-        impedances_beside(axis, sides.hi, run, hi, i, of_hi);
+      list_, of.lines[0], of.lines[1], shift, of.columns, cells_at_once, [&](const IndexRange& run) {
+        const auto i = run.first - of.columns.first;
+        impedances_beside(of.axis, of.lines[0], {run.first - shift, run.last - shift}, lo, i, of_lo);
+        impedances_beside(of.axis, of.lines[1], run, hi, i, of_hi);
         FaceRows<D, Real> rows{};
         for (int p = 0; p < D; ++p) {
-          rows.up[p] = below.up(p) + i, rows.down[p] = above.down(p) + i;
-          rows.v[p] = faces.v(p) + i, rows.s[p] = faces.s(p) + i;
+          rows.up[p] = of.below.up(p) + i, rows.down[p] = of.above.down(p) + i;
+          rows.v[p] = of.states.v(p) + i, rows.s[p] = of.states.s(p) + i;
         }
         solve_faces(run.count(), of_lo, of_hi, rows);
         if (!half_face) return;
@@ -299,9 +288,9 @@ void AnisotropicCells<D, Real>::solve(int axis, const Sides& sides, const IndexR
 }
 
 template <int D, class Real>
-void AnisotropicCells<D, Real>::add_stress(int axis, std::int64_t line, const IndexRange& columns, Real size,
-                                           const Real* b, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
-                                           const SweptRows<Real>& rows, Real* shear) const {
+void AnisotropicCells<D, Real>::add_stress(const RowPart<D, Real>& part, Real size, const Real* b,
+                                           const RowFlux<Real>& flux, const SweptRows<Real>& rows,
+                                           Real* shear) const {
   if (empty()) return;
   std::array<Real*, stresses> all;
   if constexpr (D == 2)
@@ -310,11 +299,11 @@ void AnisotropicCells<D, Real>::add_stress(int axis, std::int64_t line, const In
     all = {rows.s, rows.passive, rows.passive2, rows.st, rows.st2, shear};
   RunOfValues<stresses * D, Real> of;
   Real change[D][cells_at_once], sum[cells_at_once];
-  list_.each_run(line, columns, [&](const IndexRange& run) {
-    const auto i = list_[run.first].x - columns.first, n = run.count();
-    expand(run.first, n, axis, &OfAxis::missing, of);
+  list_.each_run(part.line, part.columns, [&](const IndexRange& run) {
+    const auto i = list_[run.first].x - part.columns.first, n = run.count();
+    expand(run.first, n, part.axis, &OfAxis::missing, of);
     for (int p = 0; p < D; ++p) {
-      const Real *const from = lo.v(p) + i, *const to = hi.v(p) + i;
+      const Real *const from = flux.lo.v(p) + i, *const to = flux.hi.v(p) + i;
       for (std::int64_t k = 0; k < n; ++k) change[p][k] = size * b[i + k] * (to[k] - from[k]);
     }
     for (std::size_t m = 0; m < stresses; ++m) {

@@ -10,6 +10,7 @@
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
+#include "solver/sweep/row_method.hpp"
 #include "solver/sweep/row_waves.hpp"
 #include "solver/sweep/state.hpp"
 
@@ -105,26 +106,27 @@ class AnisotropicCells {
   }
 
   using Pairs = std::array<SweptPair<Real>, std::size_t(D)>;
-  /// Outgoing waves of the cells of these columns of a line, from the fields of all pairs; `b` is dt/(rho h)
-  /// of the first of them. `metric`: of a curvilinear row, else null.
-  void reconstruct(int axis, std::int64_t line, const IndexRange& columns, const Kernels<Real>& kernels,
-                   std::int64_t stride, const Pairs& pairs, const Real* b, Real scale,
-                   OutgoingWaves<Real> outgoing, const CurvilinearAlong<Real>* metric = nullptr) const;
-  /// The lines of cells before and behind faces; -1 beyond the grid. The cell before a face stands `shift`
-  /// columns before that behind it.
-  struct Sides {
-    std::int64_t lo, hi, shift;
+  /// What the reconstruction of a row reads and writes, from the first of some columns on; `b` is dt/(rho h).
+  struct Row {
+    int axis;
+    const Kernels<Real>& kernels;
+    std::int64_t stride;
+    Pairs pairs;
+    const Real* b;
+    Real scale;
+    OutgoingWaves<Real> outgoing;
+    const CurvilinearAlong<Real>* metric = nullptr;  // of a curvilinear row
   };
-  /// States of the faces before the cells of these columns, between the outgoing waves of the cells before
-  /// (`below`) and behind them; of a curvilinear row with half of J of the faces.
-  void solve(int axis, const Sides& sides, const IndexRange& columns, OutgoingWaves<Real> below,
-             OutgoingWaves<Real> above, const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-             InterfaceStates<Real> faces, const Real* half_face = nullptr) const;
-  /// Adds to the stresses of these columns, advanced as those of what loops take the cells for; `size` is
-  /// that of the fraction of the step, `shear` in 3-D the shear stress that no pair of the sweep has.
-  void add_stress(int axis, std::int64_t line, const IndexRange& columns, Real size, const Real* b,
-                  InterfaceStates<Real> lo, InterfaceStates<Real> hi, const SweptRows<Real>& rows,
-                  Real* shear) const;
+  /// Outgoing waves of the cells of these columns of a line, from the fields of all pairs.
+  void reconstruct(std::int64_t line, const IndexRange& columns, const Row& row) const;
+  /// States of faces, between cells of the material `lo` and `hi`; of a curvilinear row with half of J of the
+  /// faces.
+  void solve(const RowFaces<D, Real>& faces, const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
+             const Real* half_face = nullptr) const;
+  /// Adds to the stresses of cells, advanced as those of what loops take the cells for; `size` is that of the
+  /// fraction of the step, `shear` in 3-D the shear stress that no pair of the sweep has.
+  void add_stress(const RowPart<D, Real>& part, Real size, const Real* b, const RowFlux<Real>& flux,
+                  const SweptRows<Real>& rows, Real* shear) const;
 
   std::int64_t memory_bytes() const { return list_.memory_bytes() + bytes_of(media_) + bytes_of(endings_); }
 
@@ -150,17 +152,11 @@ class AnisotropicCells {
   template <std::size_t Count>
   void expand(std::int64_t first, std::int64_t count, int axis, const std::array<Real, Count> OfAxis::*values,
               RunOfValues<Count, Real>& to) const;
-  void reconstruct_run(int axis, const IndexRange& run, const Kernels<Real>& kernels, std::int64_t stride,
-                       std::int64_t at, const Pairs& pairs, const Real* b, Real scale,
-                       OutgoingWaves<Real> outgoing) const;
-  void reconstruct_curvilinear_run(int axis, const IndexRange& run, const Kernels<Real>& kernels,
-                                   std::int64_t stride, std::int64_t at, const Pairs& pairs, const Real* b,
-                                   Real scale, const CurvilinearAlong<Real>& metric,
-                                   OutgoingWaves<Real> outgoing) const;
+  /// All waves of a run of cells with whole stencils; `at` is the place of the first in the row.
+  void reconstruct_run(const IndexRange& run, std::int64_t at, const Row& row) const;
+  void reconstruct_curvilinear_run(const IndexRange& run, std::int64_t at, const Row& row) const;
   template <int Order>
-  void reconstruct_ending(int axis, const Ending& ending, std::int64_t stride, std::int64_t at,
-                          const Pairs& pairs, Real b, Real scale, const CurvilinearAlong<Real>* metric,
-                          OutgoingWaves<Real> outgoing) const;
+  void reconstruct_ending(const Ending& ending, std::int64_t at, const Row& row) const;
   /// Impedances beside a run of faces, from column `from` on: those of cells where there are some, else of
   /// the material.
   void impedances_beside(int axis, std::int64_t line, const IndexRange& columns,

@@ -6,18 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "scene/edges.hpp"
-#include "solver/sweep/anisotropic_cells.hpp"
-#include "solver/sweep/curvilinear_stencils.hpp"
+#include "solver/sweep/curvilinear_method.hpp"
 #include "solver/sweep/domain.hpp"
-#include "solver/sweep/free_surface.hpp"
-#include "solver/sweep/interface_corrections.hpp"
-#include "solver/sweep/interface_stencils.hpp"
-#include "solver/sweep/metric.hpp"
-#include "solver/sweep/split_faces.hpp"
+#include "solver/sweep/level_method.hpp"
+#include "solver/sweep/row_method.hpp"
 #include "solver/sweep/state.hpp"
-#include "solver/sweep/surface_tractions.hpp"
 #include "solver/sweep/sweep_filter.hpp"
+#include "solver/sweep/sweep_tables.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -45,16 +40,18 @@ class Sweeps {
   /// Makes the sweeps of a state; where it has the rows of fluid alone, all loops are of the P pair. Keeps a
   /// reference to the state only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
+  Sweeps(const Sweeps&) = delete;
+  Sweeps& operator=(const Sweeps&) = delete;
   /// From now on this filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
   void use(SweepFilter<D, Real>* filter);
   /// From now on this treats its faces, which are among Domain::split; it must outlive the sweeps.
-  void use(FaceTreatment<D, Real>* treatment) { treatments_.push_back(treatment); }
+  void use(FaceTreatment<D, Real>* treatment) { tables_.treatments.push_back(treatment); }
   /// From now on the faces of the domain that fractures split are so; `unit` of the fields. Does nothing
   /// where there are none.
   void split_faces(const Domain<D>& domain, double dt_s, double unit);
   /// Null where there are none.
-  SplitFaces<D, Real>* split() const { return split_.get(); }
+  SplitFaces<D, Real>* split() const { return tables_.split.get(); }
   /// From now on own_rows() are those that the domain owns. Returns the faces to the grids above and below,
   /// where there are any, to be given where a neighbour has more columns.
   std::array<SharedFaces<Real>*, 2> share_faces(const Domain<D>& domain);
@@ -63,11 +60,11 @@ class Sweeps {
   /// Steps of a sweep along the last axis that these rows need. Beyond them a face that is shared needs the
   /// outgoing waves of one more.
   IndexRange steps_of_own_rows() const {
-    return {shared_[0] ? own_.first - 1 + reach_ : 0, own_.last + rows_behind()};
+    return {shared_[0] ? own_.first - 1 + tables_.reach : 0, own_.last + rows_behind()};
   }
   /// Whether nothing that faces of a line have retained or are given is other than zero in these columns.
   bool faces_at_rest(std::int64_t line, const IndexRange& columns) const {
-    return (!split_ && !shared_[0] && !shared_[1]) || split_and_shared_at_rest(line, columns);
+    return (!tables_.split && !shared_[0] && !shared_[1]) || split_and_shared_at_rest(line, columns);
   }
   /// Lines along x of own_rows().
   IndexRange own_lines() const {
@@ -84,8 +81,7 @@ class Sweeps {
   /// Lets filters change these columns before a sweep along x that follows none along another axis.
   void prepare_along_x(std::int64_t line, const IndexRange& columns, const SweepTime& time) const {
     for (auto* const filter : filters_)
-      prepare(*filter, {0, time}, state_.layout.line_index(line), columns, state_.row_fields(line).first,
-              state_.layout.row_pitch());
+      prepare(*filter, {0, time}, state_.layout.line_index(line), columns, state_.row_fields(line));
   }
 
   /// A piece of a sweep along x: advances columns `columns` of a row. Pieces of a row follow each other from
@@ -119,19 +115,20 @@ class Sweeps {
   /// states in the ring.
   void skip(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const;
   /// Rows by which the update of a sweep across is behind the newest row.
-  std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
+  std::int64_t rows_behind() const { return tables_.reach + std::max(tables_.reach, 1); }
   /// For a sweep along that axis of columns from `first` on, once the material is filled in.
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
   /// Whether free surfaces or interfaces of an axis are corrected: sweeps along it then need the velocities
   /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
-    return std::any_of(surfaces_[axis].begin(), surfaces_[axis].end(),
+    const auto& surfaces = tables_.surfaces[axis];
+    return std::any_of(surfaces.begin(), surfaces.end(),
                        [](const auto& surface) { return !surface.empty(); }) ||
-           !corrections_[axis].empty() || (split_ && split_->any(axis));
+           !tables_.corrections[axis].empty() || (tables_.split && tables_.split->any(axis));
   }
   /// Cells the reconstruction reads to each side.
-  std::int64_t reach() const { return reach_; }
+  std::int64_t reach() const { return tables_.reach; }
   /// Copies the velocities at the free surfaces of x on this row, or at those of an axis between x and z
   /// where this row is beside one of them.
   void retain(int axis, std::int64_t line, const IndexRange& columns);
@@ -151,86 +148,38 @@ class Sweeps {
   /// What it holds besides the state.
   std::int64_t memory_bytes() const;
   /// Whether S waves are swept at all.
-  bool shear() const { return shear_; }
+  bool shear() const { return tables_.shear; }
 
  private:
   static constexpr int z_axis = D - 1;
-  /// A wave family along one axis: its fields' rows and interface stencils.
-  struct Pair {
-    Wave wave;
-    int v, s;  // rows of the line
-  };
-  /// A piece of a row: the cells to reconstruct, the cells to update, and where its fields are stored.
-  struct Piece {
-    std::int64_t line;
-    IndexRange reconstructed, update;
-    Real* fields;  // cell 0 of row 0
-    std::int64_t pitch;
-    bool remember;
-  };
-  void advance_piece(const Piece& piece, bool begins, bool ends, Real scale, StripeBoundary<Real>& boundary,
-                     Workspace<Real>& work);
-  void sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work);
-  void reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
-                       std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
-                       PrefetchQueue<Real>& prefetch) const;
-  /// Reconstructs a curvilinear row of a fitted grid.
-  void reconstruct_curvilinear_row(int axis, const Index<D>& line, const IndexRange& columns,
-                                   const Real* fields, std::int64_t pitch, std::int64_t stride, Real scale,
-                                   OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const;
-  /// Returns what the Riemann solution reads at the face before a row, across the rows, where that face is
-  /// not level or lies before or behind a curvilinear row.
-  CurvilinearSolve<Real> curvilinear_face(const Index<D>& at, std::int64_t row, std::int64_t x,
-                                          Ring<Real>& ring) const;
-  /// Returns what the update of a curvilinear row reads in a sweep across the rows.
-  CurvilinearUpdate<Real> curvilinear_update(const Index<D>& line, std::int64_t x, Real* fields,
-                                             std::int64_t pitch, InterfaceStates<Real> lo,
-                                             InterfaceStates<Real> hi) const;
+  /// A piece of a row: the cells that it advances, and those whose outgoing waves it finds anew.
+  void advance_piece(const RowPart<D, Real>& piece, const IndexRange& reconstructed, bool begins, bool ends,
+                     StripeBoundary<Real>& boundary, Workspace<Real>& work);
+  void sweep_piece(const RowPart<D, Real>& piece, const IndexRange& reconstructed, Workspace<Real>& work);
+  /// Cells of a row along x, of the state or a copy.
+  RowPart<D, Real> part_along(const RowFields<Real>& row, const IndexRange& columns, Real scale,
+                              bool remember) const {
+    return {0, state_.layout.line_index(row.row), row.row, columns, row.first, row.pitch, scale, remember};
+  }
+  const RowMethod<D, Real>& method(std::int64_t line) const {
+    if (tables_.metric.curvilinear(line)) return curvilinear_;
+    return level_;
+  }
   bool advance_curvilinear(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
                            Real scale, Ring<Real>& ring, Workspace<Real>& work);
-  /// Whether an effect filters the update of any of these columns.
-  bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
-  const CurvilinearKernels<Real>& curvilinear_kernels() const { return kernels_[false]->curvilinear[D - 2]; }
-  const InterfaceKernels<Real>& face_kernels(bool uniform) const {
-    const auto& all = *kernels_[uniform];
-    return anisotropic_ ? all.anisotropic_face[D - 2] : shear_ ? all.face[D - 2] : all.fluid_face;
-  }
-  /// What the update of cells reads, beginning with the first of them: the interface states before and behind
-  /// them, the outgoing waves of them and their neighbours.
-  struct Flux {
-    InterfaceStates<Real> lo, hi;
-    OutgoingWaves<Real> below, here, above;
-  };
-  void update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, std::int64_t pitch,
-              Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
-  void update_curvilinear(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                          std::int64_t pitch, Real scale, const Flux& flux,
-                          const SweptRows<Real>& rows) const;
-  /// The rows of fields that a sweep changes, from a cell on.
-  SweptRows<Real> swept_rows(int axis, Real* fields, std::int64_t pitch) const;
-  /// `scale` of a sweep along an axis over a row: along z in proportion to how much lower than a cell it is.
-  Real scale_of(int axis, const Index<D>& line, Real scale) const {
-    return axis == z_axis ? scale * metric_.inverse_height(line[z_axis]) : scale;
-  }
-  void solve_along(std::int64_t line, const IndexRange& cells, bool begins, bool ends,
-                   OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const;
-  void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
-                    Ring<Real>& ring) const;
-  using Cells = AnisotropicCells<D, Real>;
-  typename Cells::Pairs pairs_from(int axis, const Real* fields, std::int64_t pitch, bool whole) const;
-  /// The states of faces across curvilinear rows, before `row`, beside anisotropic cells.
-  void solve_anisotropic_across(const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                                const CurvilinearSolve<Real>& face, Real sign, bool fluid) const;
-  /// What is missing in the stresses of anisotropic cells.
-  void add_missing_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                          std::int64_t pitch, Real size, const Flux& flux) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
-  bool fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const;
-  FusedRow<Real> fused(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                       Ring<Real>& ring);
-  void find_stencils(const Domain<D>& domain);
-  void find_plain_lines();
+  /// Whether an effect filters the update of any of these columns.
+  bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
+  void update(const RowPart<D, Real>& part, const RowFlux<Real>& flux, Workspace<Real>& work);
+  void solve_along(const RowFaces<D, Real>& faces, bool begins, bool ends) const;
+  void solve_across(const RowFaces<D, Real>& faces) const;
+  /// In a sweep across: the faces before a row, the cells of a row in the state, and what their update reads.
+  RowFaces<D, Real> faces_before(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                 Real scale, Ring<Real>& ring) const;
+  RowPart<D, Real> part_of(int axis, Index<D> at, std::int64_t row, const IndexRange& columns,
+                           Real scale) const;
+  static RowFlux<Real> flux_of(std::int64_t row, std::int64_t x, Ring<Real>& ring);
   /// Columns of a row, and those of its padding where they are its last.
   IndexRange with_padding(const IndexRange& columns) const {
     return {columns.first,
@@ -240,11 +189,12 @@ class Sweeps {
   IndexRange lagging(const IndexRange& columns) const {
     return {columns.first == 0 ? 0 : columns.first + lag, columns.last + 2 * lag};
   }
-  void prepare(SweepFilter<D, Real>& filter, const NextSweep& next, const Index<D>& line,
-               const IndexRange& columns, Real* fields, std::int64_t pitch) const;
+  void prepare(SweepFilter<D, Real>& filter, const NextSweep& next, const Index<D>& at,
+               const IndexRange& columns, const RowFields<Real>& fields) const;
+  /// Lets filters change cells, which a sweep has just advanced, before the next one.
+  void prepare_next(const RowPart<D, Real>& part, Workspace<Real>& work) const;
   template <class Advance>
-  void filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, Real scale,
-                std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
+  void filtered(const RowPart<D, Real>& part, Workspace<Real>& work, const Advance& advance);
   /// The cells of a surface in these columns of lines that follow each other.
   void correct(FreeSurface<D, Real>& surface, const IndexRange& lines, const IndexRange& columns);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
@@ -258,64 +208,14 @@ class Sweeps {
   void share(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Ring<Real>& ring);
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
-  std::array<Pair, D> make_pairs(int axis) const;
-  /// Rows that a sweep changes: of the P pair, the passive normal stresses, of the S pairs, and in 3-D where
-  /// axes of rock are turned the shear stress across the axis.
-  static constexpr int changed = 3 * D - 1, changed_in_fluid = 2, changed_at_most = 4 * D - 3;
-  std::array<int, changed_at_most> rows_changed(int axis) const;
-  int rows_changed() const { return shear_ ? changed + (couples_all_ ? 1 : 0) : changed_in_fluid; }
-  int pair_count() const { return shear_ ? D : 1; }
 
   State<D, Real>& state_;
-  std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
+  SweepTables<D, Real> tables_;
+  LevelMethod<D, Real> level_;
+  CurvilinearMethod<D, Real> curvilinear_;
   std::array<std::unique_ptr<SharedFaces<Real>>, 2> shared_;
   IndexRange own_;  // rows of the last axis that along() sweeps
   std::vector<SweepFilter<D, Real>*> filters_;
-  EdgeLaws<D> edges_;
-  int order_, reach_;
-  bool shear_, anisotropic_, couples_all_, monotone_ = false;
-  std::array<std::array<InterfaceStencils, D>, D>
-      stencils_;  // [axis], of P and of S pairs as distinct_pairs_
-  /// The S pairs of an axis share their stencils, but where they have different impedances.
-  int distinct_pairs_ = 2;
-  const InterfaceStencils& stencils_of(int axis, int pair) const {
-    return stencils_[std::size_t(axis)][std::size_t(std::min(pair, distinct_pairs_ - 1))];
-  }
-  /// Whether any pair of an axis has stencils of its own in these columns.
-  bool any_stencils(int axis, std::int64_t line, const IndexRange& columns) const {
-    for (int pair = 0; pair < (shear_ ? distinct_pairs_ : 1); ++pair)
-      if (stencils_of(axis, pair).any(line, columns)) return true;
-    return false;
-  }
-  Cells anisotropic_cells_;
-  AnisotropicCellsAcross<D, Real> anisotropic_across_;  // in curvilinear rows
-  std::unique_ptr<SplitFaces<D, Real>> split_;
-  std::vector<FaceTreatment<D, Real>*> treatments_;
-  Metric<D, Real> metric_;
-  /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
-  std::array<std::vector<char>, std::size_t(D)> plain_lines_;
-  std::array<InterfaceCorrections<D, Real>, std::size_t(D)> corrections_;  // [axis]
-  /// Returns the corrections of a pair of the sweep along an axis; `whole`: of a whole step.
-  PairCorrections<Real> corrections_of(int axis, int pair, bool whole) const {
-    const auto& interfaces = corrections_[axis];
-    PairCorrections<Real> of{
-        interfaces.velocity(pair), interfaces.traction(pair), split_ ? split_->images(pair) : nullptr, {}};
-    for (const std::size_t side : {0, 1}) {
-      const auto& surface = beside_void(axis, int(side));
-      const auto& tractions = surface.tractions();
-      of.beside_void[side] = {surface.velocity_correction(pair), surface.traction_correction(pair),
-                              whole && !tractions.empty() ? tractions.bend(pair) : nullptr};
-    }
-    return of;
-  }
-  CurvilinearStencils<D, Real> curvilinear_stencils_;
-  std::array<std::array<Pair, D>, D> pairs_;                 // [axis]: P, then S by axes
-  std::array<std::array<int, changed_at_most>, D> changed_;  // [axis]
-  /// [axis]: at the low and the high edge of the grid, then beside void on the low and the high side of
-  /// cells.
-  std::array<std::array<FreeSurface<D, Real>, 4>, D> surfaces_;
-  const FreeSurface<D, Real>& edge(int axis, int side) const { return surfaces_[axis][side]; }
-  const FreeSurface<D, Real>& beside_void(int axis, int side) const { return surfaces_[axis][2 + side]; }
 };
 
 }  // namespace slipwave::solver
