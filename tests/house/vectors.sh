@@ -197,11 +197,9 @@ want_linear_slip() {
       for (kernel in seen) {
         ++kernels
         split(kernel, of, /[<,] ?/)
-        # family_acts<ends, dimensions, damped, slides, number>
-        family = kernel ~ /^family/
-        cube = of[family ? 3 : 2] == 3
-        if (kernel ~ /^crossing_begin/) least = of[3] == "true" ? 20 : cube ? 12 : 6
-        else if (kernel ~ /^crossing/) least = cube ? 90 : 27
+        # family_acts<ends, dimensions, damped, slides, number>, crossing_acts<ends, dimensions, slides, number>
+        cube = of[3] == 3
+        if (kernel ~ /^crossing/) least = of[2] == "true" ? (cube ? 90 : 27) : of[4] == "true" ? 20 : cube ? 12 : 6
         else if (of[2] == "false" && of[4] == "false") least = (cube ? 40 : 18) + (of[5] == "true" ? (cube ? 20 : 8) : 0)
         else least = cube ? 80 : 36
         if (most[kernel] >= least) continue

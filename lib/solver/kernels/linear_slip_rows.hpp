@@ -168,19 +168,19 @@ struct CrossingRows {
     else
       return three + (row[3 * next + i] * s.s3 + row[4 * next + i] * s.s4 + row[5 * next + i] * s.s5);
   }
-  /// What the end of a step takes off the stress, by that of welded planes.
-  [[gnu::always_inline]] Real ends(const CellStress<Real>& welded, std::int64_t i) const {
-    const Real now = product(of_welded, welded, i), off = now - taken[i];
-    change[i] = off + ahead * change[i];
-    taken[i] = now;
-    return off;
-  }
-  /// What the beginning of the next one does, by the stress itself.
-  template <bool Slides>
-  [[gnu::always_inline]] Real begins(const CellStress<Real>& s, std::int64_t i) const {
+  /// What the end of a step takes off the stress, by that of welded planes, or the beginning of the next one,
+  /// by the stress itself.
+  template <bool Ends, bool Slides>
+  [[gnu::always_inline]] Real acts(const CellStress<Real>& by, std::int64_t i) const {
+    if constexpr (Ends) {
+      const Real now = product(of_welded, by, i), off = now - taken[i];
+      change[i] = off + ahead * change[i];
+      taken[i] = now;
+      return off;
+    }
     const Real off = ahead * change[i];
     if constexpr (Slides)
-      taken[i] = product(of_stress, s, i) + off;
+      taken[i] = product(of_stress, by, i) + off;
     else
       taken[i] += off;
     return off;
@@ -201,46 +201,36 @@ struct AllCrossingRows {
         c3(rows, D == 2 ? 2 : 3),
         c4(rows, D == 2 ? 2 : 4),
         c5(rows, D == 2 ? 2 : 5) {}
+  /// The stress by which they act: at the end of a step that of welded planes.
+  template <bool Ends>
+  [[gnu::always_inline]] CellStress<Real> by(const CellStress<Real>& s, std::int64_t i) const {
+    const auto with = [i](Real stress, const CrossingRows<D, Real>& of) __attribute__((always_inline)) {
+      return Ends ? stress + of.taken[i] : stress;
+    };
+    return {with(s.s0, c0), with(s.s1, c1), with(s.s2, c2), with(s.s3, c3), with(s.s4, c4), with(s.s5, c5)};
+  }
 };
 
 /// Several families whose planes cross: of all of them together, by components of the stress.
-template <int D, class Real>
-[[gnu::noinline]] void crossing_end(std::int64_t n, const SlipPlanes<Real>&,
-                                    const LinearSlipRows<Real>& rows) {
+template <bool Ends, int D, bool Slides, class Real>
+[[gnu::noinline]] void crossing_acts(std::int64_t n, const SlipPlanes<Real>&,
+                                     const LinearSlipRows<Real>& rows) {
   const StressRows<D, Real> stress(rows);
   const AllCrossingRows<D, Real> of(rows);
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const auto s = stress.of(i);
-    CellStress<Real> w = {s.s0 + of.c0.taken[i], s.s1 + of.c1.taken[i], s.s2 + of.c2.taken[i], 0, 0, 0};
-    if constexpr (D == 3)
-      w.s3 = s.s3 + of.c3.taken[i], w.s4 = s.s4 + of.c4.taken[i], w.s5 = s.s5 + of.c5.taken[i];
-    CellStress<Real> left = {
-        s.s0 - of.c0.ends(w, i), s.s1 - of.c1.ends(w, i), s.s2 - of.c2.ends(w, i), 0, 0, 0};
-    if constexpr (D == 3)
-      left.s3 = s.s3 - of.c3.ends(w, i), left.s4 = s.s4 - of.c4.ends(w, i), left.s5 = s.s5 - of.c5.ends(w, i);
-    stress.set(i, left);
-  }
-}
-
-template <int D, bool Slides, class Real>
-[[gnu::noinline]] void crossing_begin(std::int64_t n, const SlipPlanes<Real>&,
-                                      const LinearSlipRows<Real>& rows) {
-  const StressRows<D, Real> stress(rows);
-  const AllCrossingRows<D, Real> of(rows);
-#pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    const auto s = stress.of(i);
-    CellStress<Real> left = {s.s0 - of.c0.template begins<Slides>(s, i),
-                             s.s1 - of.c1.template begins<Slides>(s, i),
-                             s.s2 - of.c2.template begins<Slides>(s, i),
+    const auto by = of.template by<Ends>(s, i);
+    CellStress<Real> left = {s.s0 - of.c0.template acts<Ends, Slides>(by, i),
+                             s.s1 - of.c1.template acts<Ends, Slides>(by, i),
+                             s.s2 - of.c2.template acts<Ends, Slides>(by, i),
                              0,
                              0,
                              0};
     if constexpr (D == 3) {
-      left.s3 = s.s3 - of.c3.template begins<Slides>(s, i);
-      left.s4 = s.s4 - of.c4.template begins<Slides>(s, i);
-      left.s5 = s.s5 - of.c5.template begins<Slides>(s, i);
+      left.s3 = s.s3 - of.c3.template acts<Ends, Slides>(by, i);
+      left.s4 = s.s4 - of.c4.template acts<Ends, Slides>(by, i);
+      left.s5 = s.s5 - of.c5.template acts<Ends, Slides>(by, i);
     }
     stress.set(i, left);
   }
@@ -261,8 +251,9 @@ LinearSlipKernels<Real> linear_of(const LinearSlipCase& of) {
   if (of.one_family)
     return of.dimensions == 2 ? linear_of_family<2, Real>(of.damped, of.slides)
                               : linear_of_family<3, Real>(of.damped, of.slides);
-  if (of.dimensions == 3) return {crossing_end<3, Real>, crossing_begin<3, false, Real>};
-  return {crossing_end<2, Real>, of.slides ? crossing_begin<2, true, Real> : crossing_begin<2, false, Real>};
+  if (of.dimensions == 3) return {crossing_acts<true, 3, false, Real>, crossing_acts<false, 3, false, Real>};
+  return {crossing_acts<true, 2, false, Real>,
+          of.slides ? crossing_acts<false, 2, true, Real> : crossing_acts<false, 2, false, Real>};
 }
 
 }  // namespace
