@@ -340,7 +340,7 @@ Subdomain of_whole(const std::vector<InCells<D>>& all) {
     whole.tilted |= couples_pairs(medium, each.scene.numerics.order);
     whole.tilted_means |= tilted_means(medium) > 0;
     whole.has_void |= has_void(medium);
-    whole.has_walls |= has_walls(medium);
+    whole.corrects_inside |= corrects_inside(medium);
     whole.fastest = std::max(whole.fastest, fastest_speed(medium));
     whole.fastest_across_cells = std::max(whole.fastest_across_cells, fastest_across_cells(medium));
   }

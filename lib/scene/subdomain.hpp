@@ -28,9 +28,9 @@ struct Subdomain {
   bool anisotropic = false;  // whether any part has anisotropic cells
   bool tilted =
       false;  // whether any part has rock whose axes are turned, in 3-D also any in curvilinear rows
-  bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
-  bool has_void = false;      // whether any part has void cells
-  bool has_walls = false;     // whether fluid stands beside solid in any part
+  bool tilted_means = false;     // whether any part has cells that interfaces cut as tilted means
+  bool has_void = false;         // whether any part has void cells
+  bool corrects_inside = false;  // whether any part has surfaces inside that sweeps along all axes correct
   /// The askew_sets(); set with several processes only.
   std::vector<std::array<bool, 2>> askew{};
   /// The side_speeds() of the whole model; set in a fitted grid only.

@@ -82,7 +82,8 @@ bool has_void(const Medium<D>& medium) {
 }
 
 template <int D>
-bool has_walls(const Medium<D>& medium) {
+bool corrects_inside(const Medium<D>& medium) {
+  if (has_void(medium)) return true;
   const auto& grid = medium.grid();
   if (medium.vs.empty()) return false;  // before the model is read
   const auto nx = grid.shape[0], plane = grid.size() / grid.shape[D - 1];
@@ -151,9 +152,7 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene) {
       if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = free_surface_reach;
   for (const auto& set : scene.model.fracture_sets)
     if (set.on_faces) surface_reach[0] = free_surface_reach;
-  const auto& known = scene.subdomain;
-  const auto& medium = scene.model.medium;
-  if (known.has_void || known.has_walls || has_void(medium) || has_walls(medium))
+  if (scene.subdomain.corrects_inside || corrects_inside(scene.model.medium))
     surface_reach.fill(free_surface_reach);
   const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
                                              reach_of(scene.numerics.order), surface_reach);
@@ -270,7 +269,7 @@ void join(Scene<D>& scene, Ranks& ranks) {
     for (auto& speeds : sides) speeds = allgather(&ranks, speeds);
   scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.has_void = largest_of(&ranks, has_void(scene.model.medium) ? 1 : 0) > 0;
-  scene.subdomain.has_walls = largest_of(&ranks, has_walls(scene.model.medium) ? 1 : 0) > 0;
+  scene.subdomain.corrects_inside = largest_of(&ranks, corrects_inside(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
@@ -278,7 +277,7 @@ SLIPWAVE_INSTANTIATE_D(FUNCTION, askew_sets);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, any_edge_absorbs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_shear);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_void);
-SLIPWAVE_INSTANTIATE_D(FUNCTION, has_walls);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, corrects_inside);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, couples_pairs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, rows_of);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, side_speeds);

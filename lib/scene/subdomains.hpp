@@ -26,10 +26,10 @@ bool any_edge_absorbs(const Scene<D>& scene, int axes = D);
 template <int D>
 bool has_void(const Medium<D>& medium);
 
-/// Whether fluid stands beside solid in two rows (in 3-D planes) that follow each other: sweeps then correct
-/// upright interfaces inside the model (theory.md (E11a)).
+/// Whether sweeps along any axis correct surfaces inside the model: beside void, and where fluid stands beside
+/// solid in two rows (in 3-D planes) that follow each other at upright interfaces (theory.md (E11a)).
 template <int D>
-bool has_walls(const Medium<D>& medium);
+bool corrects_inside(const Medium<D>& medium);
 
 /// Whether rock in 3-D has to be swept by all three waves at once, somewhere: axes that are turned, or rows
 /// that bend.

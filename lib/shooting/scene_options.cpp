@@ -350,13 +350,10 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
     }
   });
   // Void or a wall of water anywhere widens it, too.
-  const auto anywhere = [&](auto&& is_here) {
-    return group && largest_of(group, is_here(scene.model.medium) ? 1 : 0) > 0;
-  };
-  const bool has_voids = anywhere(has_void<D>), walls = anywhere(has_walls<D>);
+  const bool anywhere = group && largest_of(group, corrects_inside(scene.model.medium) ? 1 : 0) > 0;
   collective_try(&all, [&] {
-    if (has_voids || walls) {
-      scene.subdomain.has_void = has_voids, scene.subdomain.has_walls = walls;
+    if (anywhere) {
+      scene.subdomain.corrects_inside = true;
       read_rows(read_model_grid<D>(file));
     }
     warnings = prepare_model(scene);
