@@ -31,16 +31,6 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   return image_sign<D>(law, axis, row) < 0 ? Beyond::odd : Beyond::even;
 }
 
-/// Whether the scheme's stencils end between two cells of one kind.
-template <int D>
-bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
-  for (const Wave wave : {wave_p, wave_s})
-    for (const int axis : {D - 1, 0})
-      if (strong_interface_between(domain.impedance(wave, axis)(one), domain.impedance(wave, axis)(other)))
-        return true;
-  return false;
-}
-
 /// Visits the cells of a box whose place along an axis is `layer`, until one is not `fit`.
 template <int D, class Fit>
 bool all_of_layer(const std::array<AxisCells, std::size_t(D)>& box, std::size_t axis, std::int64_t layer,
@@ -122,7 +112,7 @@ Box<D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach
   return box_round(domain, centre, widest_stencil, std::numeric_limits<std::int64_t>::max(),
                    [&](const Index<D>& at, const Index<D>& inside) {
                      return kind(at) == wanted &&
-                            (reach == Reach::over_one_kind || !strong_interface(domain, at, inside));
+                            (reach == Reach::over_one_kind || alike(domain, at, inside));
                    });
 }
 
