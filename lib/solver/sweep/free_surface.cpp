@@ -140,12 +140,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
 
 template <int D, class Real>
 FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, int axis, int side, bool inside)
-    : axis_(axis),
-      side_(side),
-      inside_(inside),
-      outward_(side ? -1 : 1),
-      padded_nx_(layout.padded_nx()),
-      shape_(layout.shape()) {
+    : axis_(axis), side_(side), inside_(inside), outward_(side ? -1 : 1), layout_(layout) {
   // Only whole sweeps take tractions, and there are none along y.
   if (axis == 0) retained_cells_ = 2, retained_rows_ = int(layout.rows());
 }
@@ -159,9 +154,9 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
   std::vector<Index<D>> cells;
   for (std::int64_t n = 0; n < edge.size(); ++n) {
     cells.push_back(edge.index(n));
-    cells.back()[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
+    cells.back()[std::size_t(axis)] = side ? layout.shape()[std::size_t(axis)] - 1 : 0;
   }
-  find_corrections(layout, domain, cells);
+  find_corrections(domain, cells);
 }
 
 template <int D, class Real>
@@ -184,45 +179,43 @@ FreeSurface<D, Real> FreeSurface<D, Real>::beside_void(const Layout<D>& layout, 
     // Beside void in curvilinear rows InterfaceCorrections serve.
     if (axis == D - 1 && domain.curvilinear(at[D - 1])) continue;
     cells.push_back(at);
-    surface.keys_.push_back(surface.key_of(at));
-    surface.places_.push_back(layout.cell(at));
+    surface.inside_cells_.end_lines_before(layout.line_number(at));
+    surface.inside_cells_.cells.push_back({at[0], layout.cell(at)});
   }
-  surface.find_corrections(layout, domain, cells);
+  surface.inside_cells_.end_lines_before(layout.lines());
+  surface.find_corrections(domain, cells);
   return surface;
 }
 
 template <int D, class Real>
-void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domain<D>& domain,
-                                            const std::vector<Index<D>>& cells) {
-  if (inside_) corrected_.assign(cells.size(), 0);
-  for (const auto& at : cells) find_corrections(layout, domain, at);
+void FreeSurface<D, Real>::find_corrections(const Domain<D>& domain, const std::vector<Index<D>>& cells) {
+  for (const auto& at : cells) find_corrections(domain, at);
   if (empty()) return;
-  Index<D> last = shape_;
+  Index<D> last = layout_.shape();
   for (auto& n : last) --n;
-  const auto size = inside_ ? std::int64_t(cells.size()) : number(last) + padded_nx_;
+  const auto size = inside_ ? std::int64_t(cells.size()) : number(last) + layout_.padded_nx();
   if (axis_ < D - 1) retained_.assign(std::size_t(size * retained_cells_ * retained_rows_), 0);
   for (auto* lists : {&velocity_corrections_, &traction_corrections_})
     for (auto& list : *lists) list.assign(std::size_t(size), 0);
   // Sweeps along the axes between are halves.
   if (axis_ > 0 && axis_ < D - 1) return;
   tractions_ = SurfaceTractions<D, Real>(axis_, side_, size);
-  const Layout<D> material(shape_, material_rows_of<D>(domain.material_kind()));
+  const Layout<D> material(layout_.shape(), material_rows_of<D>(domain.material_kind()));
   for (const auto& at : cells)
     if (!inside_ || corrected(at) >= 0)
-      tractions_.add(domain, at, number(at), place_of(layout, at, 0, 0),
+      tractions_.add(domain, at, number(at), place_of(at, 0, 0),
                      material.cell(at) + row_b * material.row_pitch(),
                      [&](const Index<D>& cell, int behind, int row) {
-                       return place_of(layout, cell, behind, row) - place_of(layout, at, 0, 0);
+                       return place_of(cell, behind, row) - place_of(at, 0, 0);
                      });
   tractions_.finish();
 }
 
 /// Finds the corrections of all pairs at a cell.
 template <int D, class Real>
-void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domain<D>& domain,
-                                            const Index<D>& at) {
+void FreeSurface<D, Real>::find_corrections(const Domain<D>& domain, const Index<D>& at) {
   const auto kind = domain.material_kind();
-  const Layout<D> material(shape_, material_rows_of<D>(kind));
+  const Layout<D> material(layout_.shape(), material_rows_of<D>(kind));
   const auto place = [&](int material_row) {
     return material.cell(at) + material_row * material.row_pitch();
   };
@@ -234,12 +227,11 @@ void FreeSurface<D, Real>::find_corrections(const Layout<D>& layout, const Domai
     if (terms.empty()) continue;
     found = true;
     const auto begin = terms_.size();
-    for (const auto& term : terms)
-      terms_.push_back({place_of(layout, term.cell, 0, term.row), Real(term.weight)});
+    for (const auto& term : terms) terms_.push_back({place_of(term.cell, 0, term.row), Real(term.weight)});
     const int impedance_row = pair == 0 ? p_row<D>(kind, axis_) : s_row<D>(kind, axis_, along);
     cells_.push_back(
         {pair, number(at), place(row_b), place(impedance_row), Real(outward), begin, terms_.size()});
-    if (inside_) corrected_[std::size_t(number(at))] = 1;
+    if (inside_) inside_cells_.cells[std::size_t(number(at))].corrected = true;
   }
   if (found && (domain.anisotropic_cell(at) || domain.curvilinear(at[D - 1])))
     matrix_ends_.push_back({number(at), place(row_b), stiffness_across(domain, at)});
@@ -263,48 +255,39 @@ SmallMatrix<std::size_t(D), Real> FreeSurface<D, Real>::stiffness_across(const D
 
 template <int D, class Real>
 std::int64_t FreeSurface<D, Real>::number(const Index<D>& at) const {
-  if (inside_) return std::lower_bound(keys_.begin(), keys_.end(), key_of(at)) - keys_.begin();
+  if (inside_) return inside_cells_.from(layout_.line_number(at), at[0]);
   std::int64_t number = 0;
   for (int other = D - 1; other >= 0; --other)
     if (other != axis_)
-      number = number * (other == 0 ? padded_nx_ : shape_[std::size_t(other)]) + at[std::size_t(other)];
+      number = number * (other == 0 ? layout_.padded_nx() : layout_.shape()[std::size_t(other)]) +
+               at[std::size_t(other)];
   return number;
-}
-
-template <int D, class Real>
-std::int64_t FreeSurface<D, Real>::key_of(const Index<D>& at) const {
-  std::int64_t key = 0;
-  for (int axis = D - 1; axis >= 0; --axis)
-    key = key * (axis == 0 ? padded_nx_ : shape_[std::size_t(axis)]) + at[std::size_t(axis)];
-  return key;
 }
 
 template <int D, class Real>
 std::int64_t FreeSurface<D, Real>::corrected(const Index<D>& at) const {
   if (empty()) return -1;
-  const auto found = number(at);
-  if (found == std::int64_t(keys_.size()) || keys_[std::size_t(found)] != key_of(at)) return -1;
-  return corrected_[std::size_t(found)] ? found : -1;
+  const auto* const found = inside_cells_.find(layout_.line_number(at), at[0]);
+  return found && found->corrected ? found - inside_cells_.cells.data() : -1;
 }
 
 template <int D, class Real>
 IndexRange FreeSurface<D, Real>::numbers(const IndexRange& lines, const IndexRange& columns) const {
   if (!inside_ && axis_ == 0) return lines;
   const auto at = [&](std::int64_t line, std::int64_t x) {
-    const auto column = std::clamp<std::int64_t>(x, 0, padded_nx_);
+    if (inside_) return inside_cells_.from(line, x);
+    const auto column = std::clamp<std::int64_t>(x, 0, layout_.padded_nx());
     // In 3-D an edge has a line of each row along y or along z.
-    if (!inside_ && D == 3) line = axis_ == 1 ? line / shape_[1] : line % shape_[1];
-    if (!inside_) return (D == 2 ? 0 : line) * padded_nx_ + column;
-    return std::lower_bound(keys_.begin(), keys_.end(), line * padded_nx_ + column) - keys_.begin();
+    const auto of_row = layout_.shape()[1];
+    return (D == 2 ? 0 : axis_ == 1 ? line / of_row : line % of_row) * layout_.padded_nx() + column;
   };
   return {at(lines.first, columns.first), at(lines.last - 1, columns.last)};
 }
 
 template <int D, class Real>
-std::int64_t FreeSurface<D, Real>::place_of(const Layout<D>& layout, const Index<D>& at, int behind,
-                                            int row) const {
+std::int64_t FreeSurface<D, Real>::place_of(const Index<D>& at, int behind, int row) const {
   if (axis_ < D - 1) return (number(at) * retained_cells_ + behind) * retained_rows_ + row;
-  return layout.cell(at) + behind * outward_ * layout.stride(axis_) + row * layout.row_pitch();
+  return layout_.cell(at) + behind * outward_ * layout_.stride(axis_) + row * layout_.row_pitch();
 }
 
 template <int D, class Real>
@@ -320,15 +303,14 @@ void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line
   };
   if (inside_) {
     const auto here = numbers({line, line + 1}, columns);
-    for (auto number = here.first; number < here.last; ++number)
-      copy(number, places_[std::size_t(number)], 1);
+    for (auto number = here.first; number < here.last; ++number) copy(number, inside_cells_[number].place, 1);
     return;
   }
   auto at = state.layout.line_index(line);
-  const auto edge = side_ ? shape_[std::size_t(axis_)] - 1 : 0;
+  const auto edge = side_ ? layout_.shape()[std::size_t(axis_)] - 1 : 0;
   if (axis_ == 0 ? edge < columns.first || edge >= columns.last : at[std::size_t(axis_)] != edge) return;
   at[std::size_t(axis_)] = edge;
-  copy(number(at), state.layout.cell(at), axis_ > 0 ? shape_[0] : 1);
+  copy(number(at), layout_.cell(at), axis_ > 0 ? layout_.shape()[0] : 1);
 }
 
 template <int D, class Real>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/kernels/curvilinear_formulas.hpp"
+#include "solver/sweep/by_line.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"
@@ -58,8 +59,8 @@ class FreeSurface {
   bool empty() const { return cells_.empty(); }
   std::int64_t memory_bytes() const {
     return bytes_of(cells_) + bytes_of(matrix_ends_) + bytes_of(terms_) + bytes_of(retained_) +
-           bytes_of(keys_) + bytes_of(places_) + bytes_of(corrected_) + bytes_of(velocity_corrections_) +
-           bytes_of(traction_corrections_) + tractions_.memory_bytes();
+           inside_cells_.memory_bytes() + bytes_of(velocity_corrections_) + bytes_of(traction_corrections_) +
+           tractions_.memory_bytes();
   }
   int side() const { return side_; }
   /// Whether it is not an edge of the grid.
@@ -86,8 +87,8 @@ class FreeSurface {
   IndexRange numbers(const IndexRange& lines, const IndexRange& columns) const;
   /// The column of a cell.
   std::int64_t column(std::int64_t number) const {
-    if (inside_) return keys_[std::size_t(number)] % padded_nx_;
-    return axis_ > 0 ? number % padded_nx_ : side_ ? shape_[0] - 1 : 0;
+    if (inside_) return inside_cells_[number].x;
+    return axis_ > 0 ? number % layout_.padded_nx() : side_ ? layout_.shape()[0] - 1 : 0;
   }
 
  private:
@@ -108,24 +109,24 @@ class FreeSurface {
     std::int64_t number, b;
     SmallMatrix<std::size_t(D), Real> stiffness;
   };
+  /// A cell beside void: its column, its place in the fields, and whether it is corrected.
+  struct InsideCell {
+    std::int64_t x, place;
+    bool corrected = false;
+  };
   FreeSurface(const Layout<D>& layout, int axis, int side, bool inside);
-  void find_corrections(const Layout<D>& layout, const Domain<D>& domain, const std::vector<Index<D>>& cells);
-  void find_corrections(const Layout<D>& layout, const Domain<D>& domain, const Index<D>& at);
-  std::int64_t key_of(const Index<D>& at) const;
+  void find_corrections(const Domain<D>& domain, const std::vector<Index<D>>& cells);
+  void find_corrections(const Domain<D>& domain, const Index<D>& at);
   /// Place of a field of a cell of the surface, or of the one behind it, in what update_corrections() reads.
-  std::int64_t place_of(const Layout<D>& layout, const Index<D>& at, int behind, int row) const;
+  std::int64_t place_of(const Index<D>& at, int behind, int row) const;
   SmallMatrix<std::size_t(D), Real> stiffness_across(const Domain<D>& domain, const Index<D>& at) const;
 
   int axis_ = 0, side_ = 0;
   bool inside_ = false;
   int outward_ = 1;
-  std::int64_t padded_nx_ = 0;
-  Index<D> shape_{};
-  /// Inside the grid, by number: the cells, lines padded; their places in the fields; and whether they are
-  /// corrected.
-  std::vector<std::int64_t> keys_, places_;
-  std::vector<char> corrected_;
-  std::vector<Cell> cells_;  // by number
+  Layout<D> layout_;
+  ByLine<InsideCell> inside_cells_;  // by number, inside the grid
+  std::vector<Cell> cells_;          // by number
   std::vector<MatrixEnd> matrix_ends_;
   std::vector<Term> terms_;     // places in the fields, across all axes but the last in retained_
   std::vector<Real> retained_;  // [number][cell of the surface, the one behind it][row]
