@@ -52,7 +52,7 @@ template <int D>
 Scene<D> with_setting(const Scene<D>& scene, const AccuracySetting& setting) {
   Scene<D> changed = scene;
   if (setting.spacing_m != scene.model.grid().spacing_m)
-    changed.model = in_cells_of(scene.model, setting.spacing_m, scene.attenuation);
+    changed = with_model(scene, in_cells_of(scene.model, setting.spacing_m, scene.attenuation));
   changed.numerics = numerics_of(setting, scene.numerics);
   return changed;
 }

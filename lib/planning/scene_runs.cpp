@@ -57,7 +57,7 @@ Scene<D> SceneRuns<D>::scene_of(const AccuracySetting& setting, Variation variat
   auto scene = scene_;
   scene.numerics = numerics_of(setting, scene.numerics);
   if (!fitted && setting.spacing_m == scene.model.grid().spacing_m) return scene;
-  scene.model = fitted ? model_.fitted(setting.spacing_m) : model_.of(setting.spacing_m);
+  scene = with_model(scene, fitted ? model_.fitted(setting.spacing_m) : model_.of(setting.spacing_m));
   scene.numerics.bands =
       slipwave::resized(std::move(scene.numerics.bands), setting.spacing_m / scene_.model.grid().spacing_m);
   if (in_cells_.place_again) in_cells_.place_again(scene);

@@ -22,6 +22,7 @@
 #include "scene/gauges.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/plane_wave.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave {
 namespace {
@@ -186,8 +187,11 @@ bool Scene<D>::attenuates() const {
 
 template <int D>
 Scene<D> with_model(const Scene<D>& scene, Model<D> model) {
-  return {std::move(model), scene.subdomain,        scene.survey,    scene.edges,      scene.numerics,
-          scene.recording,  scene.snapshot_every_s, scene.with_slip, scene.slip_diary, scene.attenuation};
+  Scene<D> changed{std::move(model), scene.subdomain,  scene.survey,           scene.edges,
+                   scene.numerics,   scene.recording,  scene.snapshot_every_s, scene.with_slip,
+                   scene.slip_diary, scene.attenuation};
+  if (scene.subdomain.is_whole()) changed.subdomain.fastest = changed.subdomain.fastest_across_cells = 0;
+  return changed;
 }
 
 template <int D>
@@ -224,8 +228,7 @@ std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoic
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  return scene.model.grid().spacing_m /
-         std::max(scene.subdomain.fastest_across_cells, fastest_across_cells(scene.model.medium));
+  return scene.model.grid().spacing_m / fastest_across_cells(scene.model.medium, scene.subdomain);
 }
 
 template <int D>
@@ -245,7 +248,7 @@ int zone_cells(const Scene<D>& scene, const Source<D>& source) {
   if (scene.numerics.zone_cells > 0) return scene.numerics.zone_cells;
   if (!std::holds_alternative<PlaneWave<D>>(source.mechanism)) return usual;
   const double wavelength_m =
-      std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest) / source.wavelet.nominal_hz();
+      fastest_speed(scene.model.medium, scene.subdomain) / source.wavelet.nominal_hz();
   const double cells = std::ceil(plane_zone_wavelengths * wavelength_m / scene.model.grid().spacing_m);
   // The outermost hold the incident wave.
   return int(std::clamp(cells, double(usual), 10000.)) + reach_of(scene.numerics.order) + 1;

@@ -35,8 +35,9 @@ struct Subdomain {
   std::vector<std::array<bool, 2>> askew{};
   /// The side_speeds() of the whole model; set in a fitted grid only.
   std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};
-  double fastest = 0;               // largest vp of the whole model, m/s
-  double fastest_across_cells = 0;  // the same of fastest_across_cells()
+  /// The fastest_speed() and fastest_across_cells() of the whole model, m/s; 0 where nobody has looked
+  /// (note_speeds()).
+  double fastest = 0, fastest_across_cells = 0;
 
   bool is_whole() const { return rows == 0; }
   /// Whether rows before the first or behind the last are with other processes. Its model may hold all of

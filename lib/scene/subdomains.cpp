@@ -82,6 +82,12 @@ bool has_void(const Medium<D>& medium) {
 }
 
 template <int D>
+void note_speeds(Scene<D>& scene) {
+  scene.subdomain.fastest = fastest_speed(scene.model.medium);
+  scene.subdomain.fastest_across_cells = fastest_across_cells(scene.model.medium);
+}
+
+template <int D>
 bool corrects_inside(const Medium<D>& medium) {
   if (has_void(medium)) return true;
   const auto& grid = medium.grid();
@@ -258,8 +264,9 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.askew = askew_sets(scene);
   for (auto& kinds : scene.subdomain.askew)
     for (bool& any : kinds) any = largest_of(&ranks, any ? 1 : 0) > 0;
-  scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
-  scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
+  note_speeds(scene);
+  for (auto* const fastest : {&scene.subdomain.fastest, &scene.subdomain.fastest_across_cells})
+    *fastest = largest_of(&ranks, *fastest);
   scene.subdomain.anisotropic = largest_of(&ranks, anisotropic_cells(scene.model.medium) > 0 ? 1 : 0) > 0;
   scene.subdomain.tilted =
       largest_of(&ranks, couples_pairs(scene.model.medium, scene.numerics.order) ? 1 : 0) > 0;
@@ -277,6 +284,7 @@ SLIPWAVE_INSTANTIATE_D(FUNCTION, askew_sets);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, any_edge_absorbs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_shear);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, has_void);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, note_speeds);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, corrects_inside);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, couples_pairs);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, rows_of);

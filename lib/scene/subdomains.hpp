@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel/ranks.hpp"
+#include "rock/coefficients.hpp"
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 
@@ -26,8 +27,21 @@ bool any_edge_absorbs(const Scene<D>& scene, int axes = D);
 template <int D>
 bool has_void(const Medium<D>& medium);
 
-/// Whether sweeps along any axis correct surfaces inside the model: beside void, and where fluid stands beside
-/// solid in two rows (in 3-D planes) that follow each other at upright interfaces (theory.md (E11a)).
+/// These return the largest speeds in the whole model of which a medium is a part, m/s.
+template <int D>
+double fastest_speed(const Medium<D>& medium, const Subdomain& part) {
+  return part.fastest > 0 ? part.fastest : fastest_speed(medium);
+}
+template <int D>
+double fastest_across_cells(const Medium<D>& medium, const Subdomain& part) {
+  return part.fastest_across_cells > 0 ? part.fastest_across_cells : fastest_across_cells(medium);
+}
+/// Looks for these speeds once for a model that is as it will be shot; with_model() forgets them.
+template <int D>
+void note_speeds(Scene<D>& scene);
+
+/// Whether sweeps along any axis correct surfaces inside the model: beside void, and where fluid stands
+/// beside solid in two rows (in 3-D planes) that follow each other at upright interfaces (theory.md (E11a)).
 template <int D>
 bool corrects_inside(const Medium<D>& medium);
 

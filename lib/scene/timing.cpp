@@ -7,7 +7,7 @@
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
 #include "grid/locate.hpp"
-#include "rock/coefficients.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave {
 namespace {
@@ -30,7 +30,7 @@ struct Unreached {
 
 template <int D>
 Unreached unreached_traces(const Scene<D>& scene) {
-  const double fastest = std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest);
+  const double fastest = fastest_speed(scene.model.medium, scene.subdomain);
   Unreached unreached;
   for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
     const auto sources = scene.survey.sources_of(shot);

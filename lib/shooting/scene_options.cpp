@@ -313,6 +313,7 @@ std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const Ne
   for (const auto& more : {prepare_model(scene), idle(scene)})
     warnings.insert(warnings.end(), more.begin(), more.end());
   place_on_model(scene);
+  note_speeds(scene);
   check(scene);
   return warnings;
 }
@@ -359,7 +360,10 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
     warnings = prepare_model(scene);
     if (!group) place_on_model(scene);
   });
-  if (group) join(scene, *group);
+  if (group)
+    join(scene, *group);
+  else
+    note_speeds(scene);
   collective_try(&all, [&] { check(scene); });
   return warnings;
 }

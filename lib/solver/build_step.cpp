@@ -55,7 +55,7 @@ void add_sweeps(const std::vector<SweepFraction>& sweeps, const std::vector<Effe
 template <int D, class Real>
 Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ranks* ranks) const {
   const auto& source = scene.survey.sources[shot - 1];
-  const double vp_max = std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest);
+  const double vp_max = fastest_speed(scene.model.medium, scene.subdomain);
   const bool plane_wave = std::holds_alternative<PlaneWave<D>>(source.mechanism);
   Effects<D, Real> all;
   if (absorbs(scene, source)) {

@@ -9,6 +9,7 @@
 #include "rock/coefficients.hpp"
 #include "rock/tilted_mean.hpp"
 #include "scene/plane_wave.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/effect/incident_pml.hpp"
 #include "solver/effect/layered_wave.hpp"
 #include "solver/effect/plane_form.hpp"
@@ -362,7 +363,8 @@ std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene,
   const PlaneForm<D> form(source, material_of(medium, std::size_t(medium.grid().flat(way.entry))));
   if constexpr (D == 2)
     if (way.kind == PlaneWaveKind::vertical)
-      return std::make_unique<VerticalWave<Real>>(scene, source, form, domain, dt_s, fastest_speed(medium));
+      return std::make_unique<VerticalWave<Real>>(scene, source, form, domain, dt_s,
+                                                  fastest_speed(medium, scene.subdomain));
   if constexpr (D == 3)
     if (!std::get<PlaneWave<3>>(source.mechanism).in_x_z() || travels_in_anisotropic_rock(scene, domain, way))
       return make_turned_wave<Real>(scene, source, form, domain, way, dt_s);

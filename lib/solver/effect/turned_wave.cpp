@@ -6,6 +6,7 @@
 
 #include "base/instantiate.hpp"
 #include "rock/space_motion.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/effect/layered_wave.hpp"
 
 namespace slipwave::solver {
@@ -341,8 +342,8 @@ std::unique_ptr<IncidentWave<3, Real>> make_anisotropic_wave(const Scene<3>& sce
   const auto rock = material_of(medium, std::size_t(medium.grid().flat(way.entry)));
   const Incident incident(source, rock);
   const auto stages = all_ahead(scene.numerics.time_order, dt_s);
-  auto wave = std::make_unique<TurnedWave<Real>>(domain, source, incident.along(), fastest_speed(medium),
-                                                 stages, dt_s);
+  auto wave = std::make_unique<TurnedWave<Real>>(domain, source, incident.along(),
+                                                 fastest_speed(medium, scene.subdomain), stages, dt_s);
   if (way.kind == PlaneWaveKind::layered) {
     add_layers(scene, source, domain, way, incident, stages, *wave);
     return wave;
@@ -373,8 +374,8 @@ std::unique_ptr<IncidentWave<3, Real>> make_turned_wave(const Scene<3>& scene, c
   const std::array<double, 2> slowness = {form.slowness()[0] * plane.along[0],
                                           form.slowness()[0] * plane.along[1]};
   const auto stages = all_ahead(scene.numerics.time_order, dt_s);
-  auto wave = std::make_unique<TurnedWave<Real>>(domain, source, slowness, fastest_speed(scene.model.medium),
-                                                 stages, dt_s);
+  auto wave = std::make_unique<TurnedWave<Real>>(
+      domain, source, slowness, fastest_speed(scene.model.medium, scene.subdomain), stages, dt_s);
   const auto depths = depths_of_rows(domain);
   if (way.kind == PlaneWaveKind::layered) {
     const LayeredSeries<3> layers(scene, source, form, domain, way);

@@ -89,7 +89,7 @@ class SideRowsFinder {
  public:
   SideRowsFinder(Domain<D>& domain, const Medium<D>& medium)
       : domain_(domain),
-        fastest_(std::max(fastest_across_cells(medium), domain.subdomain.fastest_across_cells)),
+        fastest_(fastest_across_cells(medium, domain.subdomain)),
         speeds_(domain.subdomain.is_whole() ? side_speeds(medium, domain.subdomain)
                                             : domain.subdomain.side_speeds) {}
   void find() {
