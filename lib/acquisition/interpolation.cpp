@@ -19,7 +19,7 @@ constexpr double on_centre = 1e-9;
 
 /// What weights along an axis are fitted to. Wavenumbers are in radians per cell.
 struct Fit {
-  int widest;                         // cells
+  int widest, narrowest;              // cells that surround the point evenly
   double passband;                    // waves up to here are reproduced
   int moments;                        // reproduced exactly
   double stopband;                    // waves from here on are suppressed,
@@ -28,20 +28,22 @@ struct Fit {
 };
 /// A larger passband helps below six cells per wavelength and hurts above.
 constexpr Fit to_interpolate = {
-    widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
+    widest_stencil, widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
+constexpr Fit spread_over(int widest, double passband, double stopband) {
+  const double suppression = 0.1 * (std::numbers::pi - stopband);
+  return {widest, widest_spread(Moment::passing), passband, 6, stopband, suppression, narrowest_spread, 4};
+}
 /// A stopband from lower wavenumbers on, or a smaller passband, helps near the source and hurts below ten
 /// cells per wavelength.
-constexpr Fit spread_to(double stopband) {
-  return {widest_spread, 1, 6, stopband, 0.1 * (std::numbers::pi - stopband), narrowest_spread, 4};
-}
-constexpr Fit to_spread = spread_to(2.1);
-/// Static stress that is shorter than five cells leaks along the axes once the waves are gone.
-constexpr Fit to_spread_lasting = spread_to(0.4 * std::numbers::pi);
+constexpr Fit to_spread = spread_over(widest_spread(Moment::passing), 1, 2.1);
+/// Static stress that is shorter than five cells leaks along the axes once the waves are gone. Over fewer
+/// cells it cannot be left out without loss to waves of twelve.
+constexpr Fit to_spread_lasting = spread_over(widest_spread(Moment::lasting), 0.5, 1.1);
 
 /// Keeps the fit solvable; far below its errors.
 constexpr double ridge = 1e-13;
 
-constexpr int most_unknowns = to_spread.widest + to_spread.moments;
+constexpr int most_unknowns = to_spread_lasting.widest + to_spread_lasting.moments;
 using Row = std::array<double, most_unknowns + 1>;
 
 /// Solves the first `n` equations, right-hand sides in column n, by elimination with pivoting.
@@ -140,10 +142,16 @@ std::vector<CellWeight> weights_round(double position, const AxisCells& usable, 
                                       const Fit& fit, Wanted wanted = Wanted::value) {
   assert(usable.low <= usable.high);
   assert(position >= double(usable.low) - 0.5 - on_face && position <= double(usable.high) + 0.5 + on_face);
-  const auto [low, high] = window(usable, fit);
+  const auto cells = window(usable, fit);
+  const auto low = cells[0], high = cells[1];
   const auto centred = [&](int count) { return std::int64_t(std::floor(position - 0.5 * (count - 2))); };
-  const bool around = centred(most_cells) >= low && centred(most_cells) + most_cells - 1 <= high;
-  const int most = around ? most_cells : std::min(most_cells, fit.widest_beside);
+  const auto surround = [&](int count) {
+    return centred(count) >= low && centred(count) + count - 1 <= high;
+  };
+  int most = most_cells;
+  while (most > fit.narrowest && !surround(most)) most -= 2;
+  const bool around = surround(most);
+  if (!around) most = std::min(most_cells, fit.widest_beside);
   const int count = int(std::min<std::int64_t>(most, high - low + 1));
   const std::int64_t first = std::clamp(centred(count), low, high - count + 1);
   const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_beside, fit, wanted);
@@ -218,7 +226,7 @@ std::vector<CellWeight> axis_slopes(double position, const AxisCells& usable) {
 }
 
 std::vector<CellWeight> spread_weights(double position, const AxisCells& usable, Moment moment) {
-  return weights_round(position, usable, widest_spread,
+  return weights_round(position, usable, widest_spread(moment),
                        moment == Moment::lasting ? to_spread_lasting : to_spread);
 }
 

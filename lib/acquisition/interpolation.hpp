@@ -39,9 +39,12 @@ inline constexpr int widest_stencil = 8;
 inline constexpr int widest_beyond = 3;
 /// In cells: a point as near as this to a face is on it, since depths of fitted rows are found by iteration.
 inline constexpr double on_face = 1e-6;
+/// Whether something of the moment of a source stays behind its wavelet.
+enum class Moment : std::uint8_t { passing, lasting };
 /// Cells along an axis that a source is spread over smoothly, and those beside an interface, where it needs
 /// as many.
-inline constexpr int widest_spread = 14, narrowest_spread = 8;
+constexpr int widest_spread(Moment moment) { return moment == Moment::lasting ? 24 : 14; }
+inline constexpr int narrowest_spread = 8;
 
 /// Weights for the value of a field at `position` from its values at cell centres, along one axis (theory.md
 /// (A1)-(A3)). position is in cells: the centre of cell i is at i. Taken are up to `most_cells` (2 .. 8)
@@ -78,17 +81,15 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
                                           const std::array<AxisCells, std::size_t(D)>& usable,
                                           int most_cells = widest_stencil);
 
-/// Whether something of the moment of a source stays behind its wavelet.
-enum class Moment : std::uint8_t { passing, lasting };
-
-/// Weights that spread a point source smoothly (theory.md (A8)): over up to widest_spread usable cells, on a
-/// cell's centre too. They suppress waves shorter than three cells, which sweeps cannot hold in balance, and
-/// reproduce polynomials up to the fifth degree. Where widest_spread cells do not surround the point evenly,
-/// it is narrowest_spread and the third degree. The largest error of a wave of unit amplitude, by cells per
+/// Weights that spread a point source smoothly (theory.md (A8)): over up to widest_spread() usable cells, on
+/// a cell's centre too. They suppress waves shorter than three cells, which sweeps cannot hold in balance,
+/// and reproduce polynomials up to the fifth degree. Where these cells do not surround the point evenly, it
+/// is narrowest_spread and the third degree. The largest error of a wave of unit amplitude, by cells per
 /// wavelength, and what is left of short ones (measured in the tests):
 ///   cells per wavelength   24    15    12    10    8     6     | 3     2.8   2.4   2
 ///   7 on both sides        5e-5  6e-4  2e-3  4e-3  6e-3  3e-2  | 4e-2  8e-3  7e-3  9e-3
-/// Those of a moment that lasts suppress waves shorter than five cells (A8a).
+/// Those of a moment that lasts suppress waves shorter than five cells (A8a): over 24 cells to 2 %, where
+/// fewer surround the point evenly over as many as do, 14 at least.
 /// position and usable cells as for axis_weights(), narrowest_spread of them or more.
 std::vector<CellWeight> spread_weights(double position, const AxisCells& usable,
                                        Moment moment = Moment::passing);

@@ -227,8 +227,8 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
 
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
   // The material round a source decides what it is spread over.
-  const auto beside =
-      std::max({part.exchanged + beside_refreshed, beside_points, std::int64_t(widest_spread)});
+  const auto beside = std::max(
+      {part.exchanged + beside_refreshed, beside_points, std::int64_t(widest_spread(Moment::lasting))});
   return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
 }
 

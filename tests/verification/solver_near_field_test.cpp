@@ -130,7 +130,7 @@ TEST(PointSource, WhoseMomentLastsLeavesTheRockAtRest) {
           peak = std::max(peak, std::abs(trace[n]));
           if (n >= trace.size() / 2) late = std::max(late, std::abs(trace[n]));
         }
-    EXPECT_LT(late, 0.025 * peak) << mechanism;
+    EXPECT_LT(late, 0.004 * peak) << mechanism;
   }
 }
 

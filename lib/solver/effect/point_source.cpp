@@ -210,7 +210,7 @@ void PointSource<D, Real>::add_moment(const Source<D>& source, const IndexRange&
   if (weights.empty())
     weights = source_weights(state_.layout, domain_, source.position_m, like, side_);
   else
-    reach_ = widest_spread / 2;
+    reach_ = widest_spread(moment_) / 2;
   for (auto row = rows.first; row < rows.last; ++row)
     add(weights, Rows::stored(state_.layout, int(row)) - Rows::stored(state_.layout, like), strength);
 }

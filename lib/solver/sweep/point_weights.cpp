@@ -123,7 +123,7 @@ constexpr double one_rock = 1.05;
 /// few. Beyond a plane of symmetry lies the image of the source.
 template <int D>
 std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domain, const Index<D>& centre,
-                                                          int field_row) {
+                                                          int field_row, int widest) {
   const auto alike = [&](const Index<D>& at, const Index<D>&) {
     for (const Wave wave : {wave_p, wave_s})
       for (const int axis : {D - 1, 0}) {
@@ -132,7 +132,7 @@ std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domai
       }
     return true;
   };
-  auto box = box_round(domain, centre, widest_spread, widest_spread + 1, alike).cells;
+  auto box = box_round(domain, centre, widest, widest + 1, alike).cells;
   for (std::size_t axis = 0; axis < D; ++axis) {
     auto& cells = box[axis];
     if (cells.low == 0 && domain.edges[int(axis)][0] == EdgeLaw::mirror)
@@ -568,7 +568,7 @@ std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Do
                                                Moment moment) {
   const Index<D> centre = cell_at(domain, point_m, side);
   if (domain.impedance(wave_s)(centre) == 0) return {};
-  const auto usable = cells_of_the_rock(domain, centre, field_row);
+  const auto usable = cells_of_the_rock(domain, centre, field_row, widest_spread(moment));
   if (!usable) return {};
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   return value_weights(layout, spread_point_weights<D>(domain.grid, place, *usable, moment), field_row);
