@@ -228,7 +228,24 @@ std::string amplitude_help() {
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, source_kinds);
+/// A moment lasts where the integral of its wavelet is more than this share of its spectrum at its own
+/// frequency: with less, what (A8a) keeps from moving on is less than 1 % of the waves.
+constexpr double lasting_share = 0.01;
+
+template <int D>
+Moment moment_of(const Source<D>& source) {
+  const auto& wavelet = source.wavelet;
+  const double stays = wavelet.amplitude_spectrum(0);
+  if (stays <= lasting_share * wavelet.amplitude_spectrum(wavelet.nominal_hz())) return Moment::passing;
+  const auto injection = point_injection(source);
+  for (int i = 0; injection && i < D; ++i)
+    for (int j = i; j < D; ++j)
+      if (injection->moment_rate(i, j) != 0) return Moment::lasting;
+  return Moment::passing;
+}
+
 SLIPWAVE_INSTANTIATE_D(FUNCTION, point_injection);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, moment_of);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_mechanism);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, name_of);
 

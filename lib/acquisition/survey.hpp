@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "acquisition/interpolation.hpp"
 #include "acquisition/spreads.hpp"
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
@@ -136,6 +137,9 @@ struct PointInjection {
 /// Nothing for a plane wave.
 template <int D>
 std::optional<PointInjection<D>> point_injection(const Source<D>& source);
+/// Whether a source has a moment of which something stays behind its wavelet, as that of an earthquake does.
+template <int D>
+Moment moment_of(const Source<D>& source);
 
 /// "explosion", "force:AX,AZ", "moment:MXX,MZZ,MXZ", "plane:ANGLE", "double-couple:DIP" or "plane-s:ANGLE";
 /// in 3-D "force:AX,AY,AZ", "moment:MXX,MYY,MZZ,MXY,MXZ,MYZ", "double-couple:STRIKE,DIP,RAKE" and, of plane

@@ -19,6 +19,7 @@
 #include "planning/expected_slip.hpp"
 #include "planning/measured_error.hpp"
 #include "rock/anisotropy.hpp"
+#include "rock/coefficients.hpp"
 #include "scene/bands.hpp"
 #include "scene/subdomains.hpp"
 #include "solver/banded_shot.hpp"
@@ -429,6 +430,58 @@ std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
   return std::nullopt;
 }
 
+/// How many cells of one rock, within 5 % of its impedances, lie about a cell along the axis with the fewest.
+template <int D>
+std::int64_t cells_of_bed(const Medium<D>& medium, const Index<D>& centre) {
+  const auto& grid = medium.grid();
+  const auto alike = [&](const Index<D>& at) {
+    const auto one = std::size_t(grid.flat(centre)), other = std::size_t(grid.flat(at));
+    const auto within = [&](Wave wave) {
+      const double z = wave_impedance(medium, one, D - 1, wave),
+                   of = wave_impedance(medium, other, D - 1, wave);
+      return std::max(z, of) <= one_rock * std::min(z, of);
+    };
+    return within(wave_p) && within(wave_s);
+  };
+  std::int64_t fewest = narrowest_spread;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    std::int64_t cells = -1;  // the cell itself is counted twice
+    for (const int way : {-1, 1})
+      for (auto at = centre; cells < fewest && at[axis] >= 0 && at[axis] < grid.shape[axis] && alike(at);
+           at[axis] += way)
+        ++cells;
+    fewest = std::min(fewest, cells);
+  }
+  return fewest;
+}
+
+/// What a moment that lasts leaves moving once its waves are gone, of the first source that leaves anything.
+template <int D>
+std::optional<std::string> motion_left_by_moments(const Scene<D>& scene) {
+  const auto& medium = scene.model.medium;
+  const auto holds_fluid = [&] {
+    for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+      if (medium.is_fluid(cell)) return true;
+    return false;
+  };
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
+    for (const auto* source : scene.survey.sources_of(shot)) {
+      if (moment_of(*source) == Moment::passing) continue;
+      const auto cell = cell_of(medium.grid(), source->position_m);
+      if (!medium.is_solid(std::size_t(medium.grid().flat(cell)))) continue;
+      const auto of_shot = "the moment of the source of shot " + std::to_string(shot) + " lasts, and ";
+      if (const auto bed = cells_of_bed(medium, cell); bed < narrowest_spread)
+        return of_shot + "its rock is " + std::to_string(bed) +
+               " cells thick: the rock in its row and column " +
+               "may keep moving for seconds, by a tenth of the peak and more. Use smaller cells";
+      if (holds_fluid())
+        return of_shot +
+               "water above rock may keep flowing within some cells of it when the waves have left, " +
+               "by percents of the peak. Read velocities in water while waves pass, or use smaller cells";
+    }
+  return std::nullopt;
+}
+
 /// Whether two solids meet anywhere at an interface where stencils end.
 template <int D>
 bool joins_unlike_solids(const Medium<D>& medium) {
@@ -472,11 +525,12 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
                         shown(medium.grid().spacing_m * cells / fewest_cells, 2) + " m (" +
                         shown(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost) or --error");
   };
-  const auto in_a_fracture = source_in_a_fracture(scene);
+  const auto in_a_fracture = source_in_a_fracture(scene), left_moving = motion_left_by_moments(scene);
   if (scene.numerics.bands.empty()) {
     const double step_s = time_step_s(scene);
     warn(scene.model.medium, step_s);
     if (in_a_fracture) sentences.push_back(*in_a_fracture);
+    if (left_moving) sentences.push_back(*left_moving);
     if (const auto gain = gain_of_closed_box(scene, scene.recording.duration_s / step_s))
       sentences.push_back(*gain);
     return sentences;
@@ -485,6 +539,7 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
   const double step_s = time_step_s(bands.front());
   for (const auto& medium : media_of_bands(bands)) warn(medium, step_s);
   if (in_a_fracture) sentences.push_back(*in_a_fracture);
+  if (left_moving) sentences.push_back(*left_moving);
   if (const double steps = scene.recording.duration_s / step_s;
       scene.numerics.order > 5 && steps > steps_without_gain)
     sentences.push_back("bands may slowly gain energy at order " + std::to_string(scene.numerics.order) +

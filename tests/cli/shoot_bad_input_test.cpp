@@ -70,6 +70,26 @@ TEST_F(ShootBadInput, ASourceInTheCellsOfAFractureIsAWarning) {
   EXPECT_FALSE(warned("--compliance 1e-10,3e-10 --faces", "97"));
 }
 
+TEST_F(ShootBadInput, AMomentThatLastsInAThinBedOrBelowWaterIsAWarning) {
+  const auto warning = [&](const std::string& layers, const std::string& depth, const std::string& wavelet) {
+    done("sw-layers --size 200x200 --step 5 " + layers + " -o rock.nc");
+    const Ran ran = run("sw-shoot rock.nc --source 100," + depth + " --wavelet " + wavelet +
+                        " --time 0.02 --receivers 100,20 -o rock.sgy");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const std::string start = "warning: the moment of the source of shot 1 lasts, and ";
+    const auto at = ran.err.find(start);
+    return at == std::string::npos ? "" : ran.err.substr(at + start.size(), 23);
+  };
+  const std::string rock = "--layer 0:3000:1700:2300 ",
+                    bed = rock + "--layer 100:4500:2500:2600 --layer 125:3000:1700:2300",
+                    sea = "--layer 0:1500:0:1000 --layer 50:3000:1700:2300";
+  EXPECT_EQ(warning(bed, "112", "gauss:20"), "its rock is 5 cells thi");
+  EXPECT_EQ(warning(sea, "112", "gauss:20"), "water above rock may ke");
+  EXPECT_EQ(warning(sea, "112", "ricker:20"), "");
+  EXPECT_EQ(warning(sea, "20", "gauss:20"), "");
+  EXPECT_EQ(warning(rock, "112", "gauss:20"), "");
+}
+
 TEST_F(ShootBadInput, ALongRunInAClosedBoxOfUnlikeRocksIsAWarning) {
   const auto warned = [&](const std::string& layers, const std::string& options) {
     done("sw-layers --size 40x40 --step 5 " + layers + " -o box.nc");

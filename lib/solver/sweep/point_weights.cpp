@@ -116,9 +116,6 @@ Box<D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach
                    });
 }
 
-/// Impedances that differ by less than this factor are those of one rock.
-constexpr double one_rock = 1.05;
-
 /// Cells of the rock round a cell over which a source can be spread smoothly; nothing where there are too
 /// few. Beyond a plane of symmetry lies the image of the source.
 template <int D>
