@@ -247,8 +247,8 @@ TEST(SpringRow, ReflectsAndTransmitsAsSchoenbergsInterface) {
   if (long_form()) {
     cases.clear();
     for (const bool of_s : {false, true})
-      for (const double hz : {10., 20., 30., 60.})
-        for (const double angle_deg : {1., 20., 40., 60., 70.}) cases.push_back({of_s, hz, angle_deg});
+      for (const double hz : {10., 30., 60.})
+        for (const double angle_deg : {1., 40., 70.}) cases.push_back({of_s, hz, angle_deg});
   }
   for (const auto& [of_s, hz, angle_deg] : cases) {
     const auto of = setup(of_s, hz, angle_deg, hz > 25 ? 2.5 : 5);
