@@ -45,8 +45,6 @@ enum class Moment : std::uint8_t { passing, lasting };
 /// as many.
 constexpr int widest_spread(Moment moment) { return moment == Moment::lasting ? 24 : 14; }
 inline constexpr int narrowest_spread = 8;
-/// Impedances that differ by less than this factor are those of one rock, over which a source is spread.
-inline constexpr double one_rock = 1.05;
 
 /// Weights for the value of a field at `position` from its values at cell centres, along one axis (theory.md
 /// (A1)-(A3)). position is in cells: the centre of cell i is at i. Taken are up to `most_cells` (2 .. 8)

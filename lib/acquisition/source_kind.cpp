@@ -227,7 +227,6 @@ std::string amplitude_help() {
   return help + "in 3-D " + joined(others, " and ");
 }
 
-SLIPWAVE_INSTANTIATE_D(FUNCTION, source_kinds);
 /// A moment lasts where the integral of its wavelet is more than this share of its spectrum at its own
 /// frequency: with less, what (A8a) keeps from moving on is less than 1 % of the waves.
 constexpr double lasting_share = 0.01;
@@ -244,6 +243,7 @@ Moment moment_of(const Source<D>& source) {
   return Moment::passing;
 }
 
+SLIPWAVE_INSTANTIATE_D(FUNCTION, source_kinds);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, point_injection);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, moment_of);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, parse_mechanism);

@@ -430,18 +430,18 @@ std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
   return std::nullopt;
 }
 
-/// How many cells of one rock, within 5 % of its impedances, lie about a cell along the axis with the fewest.
+/// How many cells of one rock lie about a cell along the axis with the fewest, counted up to as many as a
+/// source can be spread over.
 template <int D>
 std::int64_t cells_of_bed(const Medium<D>& medium, const Index<D>& centre) {
   const auto& grid = medium.grid();
   const auto alike = [&](const Index<D>& at) {
     const auto one = std::size_t(grid.flat(centre)), other = std::size_t(grid.flat(at));
-    const auto within = [&](Wave wave) {
-      const double z = wave_impedance(medium, one, D - 1, wave),
-                   of = wave_impedance(medium, other, D - 1, wave);
-      return std::max(z, of) <= one_rock * std::min(z, of);
+    const auto of_one_rock = [&](Wave wave) {
+      return are_one_rock(wave_impedance(medium, one, D - 1, wave),
+                          wave_impedance(medium, other, D - 1, wave));
     };
-    return within(wave_p) && within(wave_s);
+    return of_one_rock(wave_p) && of_one_rock(wave_s);
   };
   std::int64_t fewest = narrowest_spread;
   for (std::size_t axis = 0; axis < D; ++axis) {
@@ -459,10 +459,12 @@ std::int64_t cells_of_bed(const Medium<D>& medium, const Index<D>& centre) {
 template <int D>
 std::optional<std::string> motion_left_by_moments(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
+  std::optional<bool> fluid;  // whether there is any, looked for once
   const auto holds_fluid = [&] {
-    for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
-      if (medium.is_fluid(cell)) return true;
-    return false;
+    for (std::size_t cell = 0; !fluid && cell < medium.vp.size(); ++cell)
+      if (medium.is_fluid(cell)) fluid = true;
+    fluid = fluid.value_or(false);
+    return *fluid;
   };
   for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
     for (const auto* source : scene.survey.sources_of(shot)) {
@@ -472,12 +474,13 @@ std::optional<std::string> motion_left_by_moments(const Scene<D>& scene) {
       const auto of_shot = "the moment of the source of shot " + std::to_string(shot) + " lasts, and ";
       if (const auto bed = cells_of_bed(medium, cell); bed < narrowest_spread)
         return of_shot + "its rock is " + std::to_string(bed) +
-               " cells thick: the rock in its row and column " +
-               "may keep moving for seconds, by a tenth of the peak and more. Use smaller cells";
+               " cells thick: the rock in its row and column may keep moving for seconds, by a tenth of the "
+               "peak and more. Use smaller cells";
       if (holds_fluid())
         return of_shot +
-               "water above rock may keep flowing within some cells of it when the waves have left, " +
-               "by percents of the peak. Read velocities in water while waves pass, or use smaller cells";
+               "water above rock may keep flowing within some cells of it when the waves have left, by "
+               "percents "
+               "of the peak. Read velocities in water while waves pass, or use smaller cells";
     }
   return std::nullopt;
 }

@@ -171,6 +171,11 @@ double fastest_across_cells(const Medium<D>& medium) {
 /// Ratio of impedances from which an interface between neighbouring cells is strong: stencils on both sides
 /// end there. Below it stencils run across: random contrasts up to 1.5 stay stable at every order.
 inline constexpr double strong_interface_ratio = 1.5;
+/// Whether cells of these impedances are of one rock, over which a source may be spread.
+constexpr bool are_one_rock(double z, double other) {
+  constexpr double ratio = 1.05;
+  return z <= ratio * other && other <= ratio * z;
+}
 /// Whether a face between cells of these impedances is a strong interface.
 constexpr bool strong_interface_between(double z, double other) {
   return z > strong_interface_ratio * other || other > strong_interface_ratio * z;

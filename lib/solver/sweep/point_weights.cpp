@@ -124,8 +124,8 @@ std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domai
   const auto alike = [&](const Index<D>& at, const Index<D>&) {
     for (const Wave wave : {wave_p, wave_s})
       for (const int axis : {D - 1, 0}) {
-        const double one = domain.impedance(wave, axis)(centre), other = domain.impedance(wave, axis)(at);
-        if (other > one_rock * one || one > one_rock * other) return false;
+        const auto& impedance = domain.impedance(wave, axis);
+        if (!are_one_rock(impedance(centre), impedance(at))) return false;
       }
     return true;
   };
