@@ -50,9 +50,9 @@ AccuracySetting setting_of(const Scene<D>& scene) {
 
 template <int D>
 Scene<D> with_setting(const Scene<D>& scene, const AccuracySetting& setting) {
-  Scene<D> changed = scene;
-  if (setting.spacing_m != scene.model.grid().spacing_m)
-    changed = with_model(scene, in_cells_of(scene.model, setting.spacing_m, scene.attenuation));
+  auto changed = setting.spacing_m == scene.model.grid().spacing_m
+                     ? scene
+                     : with_model(scene, in_cells_of(scene.model, setting.spacing_m, scene.attenuation));
   changed.numerics = numerics_of(setting, scene.numerics);
   return changed;
 }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "cube.hpp"
+#include "scene/subdomains.hpp"
 #include "sea_over_fractures.hpp"
 #include "solver/shot_simulation.hpp"
 
@@ -38,6 +39,16 @@ TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
             (Lines{"sweep along x, 0.5 (PML, incident wave)", "sweep along z, 1 (PML, incident wave)",
                    "sweep along x, 0.5 (PML, incident wave)", "slip, centred", "record",
                    "slip, centred, after recording"}));
+}
+
+TEST(TimeStep, IsThatOfItsOwnModelWhateverWasNotedOfAnother) {
+  auto scene = sea_over_fractures();
+  note_speeds(scene);
+  auto faster = scene;
+  faster.subdomain = {};
+  for (auto& vp : faster.model.medium.vp) vp *= 2;
+  EXPECT_EQ(stable_time_step_s(with_model(scene, faster.model)), stable_time_step_s(faster));
+  EXPECT_LT(stable_time_step_s(faster), 0.6 * stable_time_step_s(scene));
 }
 
 /// Numbers of the field rows that differ.
