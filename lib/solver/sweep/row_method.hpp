@@ -50,7 +50,7 @@ struct RowFaces {
 };
 
 /// The way in which a sweep takes the cells of a row and their faces: one for level rows, one for curvilinear
-/// ones. Each of its parts queues what it prefetches after its loops.
+/// ones. Between its loops it prefetches a share of the queue.
 template <int D, class Real>
 class RowMethod {
  public:
