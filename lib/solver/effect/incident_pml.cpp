@@ -10,8 +10,7 @@
 namespace slipwave::solver {
 namespace {
 
-/// Cells that are filtered at once.
-constexpr std::int64_t piece = 64;
+constexpr auto piece = incident_piece;
 
 /// From one cell of what was swept on.
 template <int D, class Real>

@@ -9,7 +9,6 @@
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"
-#include "solver/effect/plane_form.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
@@ -64,10 +63,13 @@ class IncidentWave {
   virtual std::int64_t memory_bytes() const { return 0; }
 };
 
+/// Cells whose values are asked for at once, at most.
+inline constexpr std::int64_t incident_piece = 64;
+
 /// Sets the fields of all cells: `values` as IncidentWave::values(), without clocks and zone.
 template <int D, class Real, class Values>
 void set_cells(State<D, Real>& state, Values&& values) {
-  constexpr auto piece = CellsAlongX<Real>::most;
+  constexpr auto piece = incident_piece;
   const auto& layout = state.layout;
   std::vector<Real> cells(std::size_t(piece * FieldRows<D>::count));
   for (std::int64_t line = 0; line < layout.lines(); ++line) {
@@ -82,9 +84,9 @@ void set_cells(State<D, Real>& state, Values&& values) {
   }
 }
 
-/// The incident wave of a scene with a plane wave that check(scene) has passed: of one medium in closed form;
-/// a vertical one along each side as the column of cells there lets it through, computed with the scheme
-/// itself; an oblique one in layers from their exact solution (LayeredWave).
+/// The incident wave of a scene with a plane wave that check(scene) has passed: a vertical one in 2-D along
+/// each side as the column of cells there lets it through, computed with the scheme itself; any other in
+/// closed form (LayeredWave).
 template <int D, class Real>
 std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene, const Source<D>& source,
                                                           const Domain<D>& domain, double dt_s);

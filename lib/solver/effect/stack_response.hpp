@@ -7,9 +7,8 @@
 
 #include "rock/elasticity.hpp"
 #include "scene/edges.hpp"
-#include "scene/plane_wave.hpp"
 #include "solver/effect/stack_series.hpp"
-#include "solver/sweep/domain.hpp"
+#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 
@@ -29,8 +28,6 @@ struct ColumnOfLayers {
   std::vector<double> depths_m;  // top of each layer and, behind the last, its bottom
   std::vector<std::size_t> of_row;
 };
-template <int D>
-ColumnOfLayers layers_of(const Scene<D>& scene, const Domain<D>& domain, const PlaneWaveWay<D>& way);
 
 /// A stack of layers of any symmetry on which a plane wave falls; the first and the last are half-spaces
 /// where their end absorbs. A layer is fluid where vs = 0.

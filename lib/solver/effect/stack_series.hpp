@@ -10,7 +10,7 @@
 
 #include "acquisition/survey.hpp"
 #include "base/fft.hpp"
-#include "solver/effect/plane_form.hpp"
+#include "solver/effect/time_series.hpp"
 
 namespace slipwave::solver {
 
@@ -35,10 +35,6 @@ class StackSeries {
   /// `solve` gives the amplitudes of all waves for an angular frequency.
   StackSeries(std::vector<StackWave> waves, const std::function<std::vector<Complex>(Complex omega)>& solve,
               const Wavelet& wavelet, double amplitude, const SeriesWindow& window);
-  std::size_t bins() const { return bins_; }
-  Complex omega(std::size_t bin) const {
-    return {2 * std::numbers::pi * double(bin) / (double(length_) * interval_s_), -decay_};
-  }
   /// Calls `see(bin, amplitude)` of a wave at a depth.
   template <class See>
   void each_bin(std::size_t wave, double z, const See& see) const;
@@ -49,10 +45,6 @@ class StackSeries {
       double z, std::size_t layer,
       const std::function<std::array<Complex, N>(std::size_t wave)>& factors) const;
   TimeSeries series_of(const std::vector<Complex>& spectrum);
-  /// The sum of parts of some spectra: `factors` of each in a part, and how much earlier a part is read.
-  template <std::size_t N>
-  TimeSeries sum_of(const std::array<std::vector<Complex>, N>& spectra,
-                    const std::vector<std::array<double, N>>& factors, const std::vector<double>& earlier_s);
 
  private:
   std::vector<float> samples_of(const std::vector<Complex>& spectrum, double& first_s);
@@ -92,29 +84,6 @@ std::array<std::vector<StackSeries::Complex>, N> StackSeries::sums_at(
     });
   }
   return spectra;
-}
-
-/// From bin to bin the phase of a part grows by the same factor.
-template <std::size_t N>
-TimeSeries StackSeries::sum_of(const std::array<std::vector<Complex>, N>& spectra,
-                               const std::vector<std::array<double, N>>& factors,
-                               const std::vector<double>& earlier_s) {
-  std::vector<Complex> sum(bins_);
-  const Complex first = Complex(0, 1) * omega(0), step = Complex(0, 1) * omega(1) - first;
-  for (std::size_t part = 0; part < factors.size(); ++part) {
-    const auto& of = factors[part];
-    bool any = false;
-    for (const double factor : of) any = any || factor != 0;
-    if (!any) continue;
-    auto phase = std::exp(first * earlier_s[part]);
-    const auto turn = std::exp(step * earlier_s[part]);
-    for (std::size_t bin = 0; bin < sum.size(); ++bin, phase *= turn) {
-      Complex here = 0;
-      for (std::size_t field = 0; field < N; ++field) here += of[field] * spectra[field][bin];
-      sum[bin] += here * phase;
-    }
-  }
-  return series_of(sum);
 }
 
 }  // namespace slipwave::solver
