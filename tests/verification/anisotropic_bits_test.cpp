@@ -33,7 +33,7 @@ Index<D> shape_for(Cut cut, std::int64_t rows) {
 
 template <int D>
 void set_times(Scene<D>& scene, double seconds) {
-  scene.recording.duration_s = long_form() ? 5 * seconds : seconds;
+  scene.recording.duration_s = long_form() ? 2 * seconds : seconds;
   scene.recording.interval_s = 0.001;
 }
 
