@@ -95,6 +95,10 @@ struct Grid {
     for (int axis = 0; axis < D; ++axis) at[axis] += first[axis];
     return rows->height(at);
   }
+  /// Depth of the faces above a row, m, of which all are level.
+  double depth_of_face(std::int64_t row) const {
+    return rows ? rows->row(row)[0] : origin_m[D - 1] + double(row) * spacing_m;
+  }
   /// A point with its horizontal coordinates counted in cells from the first corner.
   Point<D> in_cells(Point<D> point_m) const {
     for (int axis = 0; axis < D - 1; ++axis) point_m[axis] = (point_m[axis] - origin_m[axis]) / spacing_m;

@@ -42,12 +42,6 @@ struct InCells {
   std::int64_t rows() const { return last - first; }
 };
 
-/// Depth of a row of faces that is level, m.
-template <int D>
-double depth_of_face(const Grid<D>& grid, std::int64_t row) {
-  return grid.rows ? grid.rows->row(row)[0] : grid.origin_m[D - 1] + double(row) * grid.spacing_m;
-}
-
 /// Rows beside a face, counted from it: those above are negative.
 struct RowsBeside {
   std::int64_t first, last;
@@ -58,7 +52,7 @@ template <int D>
 std::int64_t row_at(const Grid<D>& grid, double depth_m, const RowsBeside& beside) {
   const std::int64_t rows = grid.shape[D - 1];
   for (std::int64_t row = 1; row < rows; ++row) {
-    if (std::abs(depth_of_face(grid, row) - depth_m) > rounding * grid.spacing_m) continue;
+    if (std::abs(grid.depth_of_face(row) - depth_m) > rounding * grid.spacing_m) continue;
     for (auto near = row + beside.first; grid.rows && near <= row + beside.last; ++near)
       if (!grid.rows->row_is_level(std::clamp<std::int64_t>(near, 0, rows)))
         refuse("a band from z=" + shown(depth_m) + " m on, where rows near it follow a horizon that dips",
@@ -184,7 +178,7 @@ struct RowOf {
 /// Height of a row between level faces, m.
 template <int D>
 double height_of_row(const Grid<D>& grid, std::int64_t row) {
-  return depth_of_face(grid, row + 1) - depth_of_face(grid, row);
+  return grid.depth_of_face(row + 1) - grid.depth_of_face(row);
 }
 
 /// Whether a face between bands lies in one rock, and rows of one are whole ones of the other: rows of both
@@ -205,12 +199,12 @@ std::vector<RowOf<D>> rows_of_band(const std::vector<InCells<D>>& all, std::size
   std::vector<RowOf<D>> rows;
   const auto& own = all[band];
   const auto add = [&](const InCells<D>& from, std::int64_t first, std::int64_t last) {
-    for (auto row = first; row < last; ++row) rows.push_back({&from, row, depth_of_face(from.grid(), row)});
+    for (auto row = first; row < last; ++row) rows.push_back({&from, row, from.grid().depth_of_face(row)});
   };
   const auto add_beyond = [&](const InCells<D>& from, bool above) {
     if (above ? !in_one_rock(from, own) : !in_one_rock(own, from))
       return add(from, above ? from.last - beside : from.first, above ? from.last : from.first + beside);
-    const double face_m = depth_of_face(own.grid(), above ? own.first : own.last),
+    const double face_m = own.grid().depth_of_face(above ? own.first : own.last),
                  own_m = height_of_row(own.grid(), above ? own.first : own.last - 1),
                  from_m = height_of_row(from.grid(), above ? from.last - 1 : from.first);
     for (auto n = above ? -beside : 0; n < (above ? 0 : beside); ++n) {
@@ -255,7 +249,7 @@ RowDepths<D> depths_of(const Grid<D>& grid, const std::vector<RowOf<D>>& rows) {
   const auto& [from, row, top_m] = rows.back();
   const bool own = from->last == row + 1 && rows[rows.size() - 2].from == from;
   add(from->grid(), row + 1,
-      own ? depth_of_face(from->grid(), row + 1) : 2 * top_m - rows[rows.size() - 2].top_m);
+      own ? from->grid().depth_of_face(row + 1) : 2 * top_m - rows[rows.size() - 2].top_m);
   return {cells, std::move(corners_m)};
 }
 
@@ -376,10 +370,13 @@ std::int64_t zone_of_widest(const Scene<D>& scene, const std::vector<InCells<D>>
     return one.grid().spacing_m < other.grid().spacing_m;
   };
   const auto& widest = *std::max_element(all.begin(), all.end(), wider);
-  const auto cells = double(zone_cells(scene, scene.survey.sources.front()));
+  const auto& source = scene.survey.sources.front();
+  const auto cells = double(zone_cells(widest.scene, source));
   if (scene.numerics.zone_cells > 0)
     return std::int64_t(
         std::ceil(cells * scene.model.grid().spacing_m / widest.grid().spacing_m * (1 - rounding)));
+  // That of plane waves is a length.
+  if (std::holds_alternative<PlaneWave<D>>(source.mechanism)) return std::int64_t(cells);
   return std::max(fewest_zone_cells, std::int64_t(std::ceil(cells * step_s / time_step_of(widest))));
 }
 
@@ -417,9 +414,6 @@ void check_bands(const Scene<D>& scene) {
   }
   if (scene.numerics.time_step_s) refuse("--time-step", "--cfl with bands");
   if (scene.numerics.monotone) refuse("--monotone", "it without bands");
-  for (const auto& source : scene.survey.sources)
-    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      refuse("a plane wave", "point sources with bands");
   if (const auto* const found = first_on_faces(scene.model.fracture_sets); scene.with_slip && found)
     refuse("fractures '" + found->name + "' on faces", "fractures in cells with bands, or --without slip");
 }
@@ -547,7 +541,7 @@ ChosenBands bands_for(const Scene<D>& scene) {
     const double room = slowest[std::size_t(row)] / slowest.front() * times;
     for (int ratio = std::min(widest_step_of_bands, int(room)); ratio >= 2; --ratio) {
       if (grid.rows && !grid.rows->row_is_level(row)) break;
-      const Band band{depth_of_face(grid, row), above.spacing_m * ratio};
+      const Band band{grid.depth_of_face(row), above.spacing_m * ratio};
       if (ratio > widest_step_in_rock && share_of_interface(scene.model.medium, row) < 1) continue;
       if (!fits(band.from_m, above.spacing_m, {-beside, 0}) ||
           !fits(band.from_m, band.spacing_m, {0, beside}))

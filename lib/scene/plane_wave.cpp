@@ -148,6 +148,7 @@ template <int D>
 void check_layers(const Scene<D>& scene, const PlaneWaveWay<D>& way) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
+  const bool in_bands = !scene.numerics.bands.empty();
   for (const int side : {0, 1}) {
     std::optional<std::size_t> reference;
     if (scene.edges[D - 1][side] == EdgeLaw::absorbing)
@@ -165,9 +166,10 @@ void check_layers(const Scene<D>& scene, const PlaneWaveWay<D>& way) {
         layer[D - 1] = at[D - 1];
         const auto other = std::size_t(grid.flat(layer));
         if (medium.same(cell, other) && !medium.is_void(cell)) return true;
-        throw Error(
-            "an oblique plane wave needs the same layers along all absorbing sides, without void; found " +
-            described(medium, other) + " and " + described(medium, cell));
+        throw Error(std::string(in_bands ? "a plane wave in bands of cells" : "an oblique plane wave") +
+                    " needs the same layers along all absorbing sides, without void; found " +
+                    described(medium, other) + " and " + described(medium, cell) +
+                    (in_bands ? "; without --bands a vertical one in 2-D takes others" : ""));
       });
     }
 }
@@ -261,7 +263,7 @@ PlaneWaveWay<D> way_of_plane_wave(const Scene<D>& scene, const Source<D>& source
   PlaneWaveWay<D> way;
   way.entry_side = wave.direction[z] > 0 ? 0 : 1;
   if (way.entry_side == 1) way.entry[z] = medium.grid().shape[z] - 1;
-  if (D == 2 && std::abs(wave.direction[0]) < least_share) {
+  if (D == 2 && std::abs(wave.direction[0]) < least_share && scene.numerics.bands.empty()) {
     way.kind = PlaneWaveKind::vertical;
     std::optional<std::size_t> reference;
     check_uniform_edge(scene, z, way.entry_side,
@@ -280,6 +282,42 @@ PlaneWaveWay<D> way_of_plane_wave(const Scene<D>& scene, const Source<D>& source
   return way;
 }
 
+std::size_t LevelLayers::at(double depth_m) const {
+  const auto below = std::upper_bound(depths_m.begin() + 1, depths_m.end() - 1, depth_m);
+  return std::size_t(below - depths_m.begin()) - 1;
+}
+
+template <int D>
+PlaneWaveGround<D> ground_of_plane_wave(const Scene<D>& scene, const Source<D>& source,
+                                        const std::vector<Scene<D>>& bands) {
+  constexpr int z = D - 1;
+  const auto& medium = scene.model.medium;
+  const auto way = way_of_plane_wave(scene, source);
+  PlaneWaveGround<D> ground{way, material_of(medium, std::size_t(medium.grid().flat(way.entry))), {}};
+  if (way.kind != PlaneWaveKind::layered) return ground;
+  auto& layers = ground.layers;
+  const auto add_rows = [&](const Medium<D>& of, std::int64_t first, std::int64_t last) {
+    const auto& grid = of.grid();
+    auto cell = way.column;
+    for (int axis = 0; axis < z; ++axis)
+      if (cell[axis] > 0) cell[axis] = grid.shape[axis] - 1;
+    for (cell[z] = first; cell[z] < last; ++cell[z]) {
+      const auto rock = material_of(of, std::size_t(grid.flat(cell)));
+      if (!layers.rocks.empty() && layers.rocks.back() == rock) continue;
+      layers.rocks.push_back(rock);
+      layers.depths_m.push_back(grid.depth_of_face(cell[z]));
+    }
+    return grid.depth_of_face(last);
+  };
+  double bottom_m = 0;
+  for (const auto& band : bands)
+    bottom_m = add_rows(band.model.medium, band.subdomain.first, band.subdomain.last);
+  if (bands.empty()) bottom_m = add_rows(medium, 0, medium.grid().shape[z]);
+  layers.depths_m.push_back(bottom_m);
+  return ground;
+}
+
 SLIPWAVE_INSTANTIATE_D(FUNCTION, way_of_plane_wave);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, ground_of_plane_wave);
 
 }  // namespace slipwave

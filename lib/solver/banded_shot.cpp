@@ -44,7 +44,7 @@ BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const S
   for (auto& band : scenes_) band.numerics.tiling.plain |= parallel_threads() > threads_for_tiles * served;
   // The bands record snapshots, which are put together here.
   const auto nowhere = sink ? SnapshotSink<D>([](double, const FieldReader<D>&) {}) : SnapshotSink<D>();
-  const auto all = in_all_bands(scenes_, shot);
+  const auto all = in_all_bands(scene, scenes_, shot);
   for (const auto& band : scenes_)
     parts_.push_back(std::make_unique<ShotSimulation<D, Real>>(band, shot, nowhere, nullptr, &all));
   std::vector<std::array<SharedFaces<Real>*, 2>> shared;

@@ -53,7 +53,8 @@ void add_sweeps(const std::vector<SweepFraction>& sweeps, const std::vector<Effe
 }  // namespace
 
 template <int D, class Real>
-Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ranks* ranks) const {
+Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ranks* ranks,
+                                               const PlaneWaveGround<D>* of_bands) const {
   const auto& source = scene.survey.sources[shot - 1];
   const double vp_max = fastest_speed(scene.model.medium, scene.subdomain);
   const bool plane_wave = std::holds_alternative<PlaneWave<D>>(source.mechanism);
@@ -65,7 +66,7 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
     if (plane_wave)
       all.push_back(std::make_unique<IncidentPml<D, Real>>(
           state.layout, domain, std::move(pml), settings,
-          make_incident_wave<D, Real>(scene, source, domain, dt_s),
+          make_incident_wave<D, Real>(scene, source, domain, dt_s, of_bands),
           SweepClocks<D>(splitting(D, scene.numerics.time_order), dt_s)));
     else
       all.push_back(std::move(pml));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/plane_wave.hpp"
 #include "scene/scene.hpp"
 #include "solver/schedule/executor.hpp"
 #include "solver/schedule/halo.hpp"
@@ -24,8 +25,9 @@ struct StepBuilder {
   double dt_s;
 
   /// The effects of a shot, in the order in which they act before recording. Fields are `unit` times SI.
-  /// Collective where there are `ranks` (may be null).
-  Effects<D, Real> effects(std::size_t shot, double unit, Ranks* ranks) const;
+  /// Collective where there are `ranks` (may be null). `of_bands` as make_incident_wave() takes it.
+  Effects<D, Real> effects(std::size_t shot, double unit, Ranks* ranks,
+                           const PlaneWaveGround<D>* of_bands = nullptr) const;
   /// The time step: its sweeps and, at the end of the step, effects and records. Makes sweeps use the effects
   /// that filter them.
   TimeStep<D, Real> time_step(Sweeps<D, Real>& sweeps, const Effects<D, Real>& effects,

@@ -95,18 +95,22 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
 }  // namespace
 
 template <int D>
-InAllBands in_all_bands(const std::vector<Scene<D>>& bands, std::size_t shot) {
+InAllBands<D> in_all_bands(const Scene<D>& scene, const std::vector<Scene<D>>& bands, std::size_t shot) {
   double rate = 0, velocity = 0;
   for (const auto& band : bands) {
     rate = std::max(rate, rate_added(band, shot));
     velocity += largest_velocity(band, shot, nullptr);
   }
-  return {unit_of(bands.front(), time_step_s(bands.front()), rate), velocity};
+  InAllBands<D> all{unit_of(bands.front(), time_step_s(bands.front()), rate), velocity, {}};
+  const auto& source = scene.survey.sources[shot - 1];
+  if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+    all.ground = ground_of_plane_wave(scene, source, bands);
+  return all;
 }
 
 template <int D, class Real>
 ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink,
-                                        Ranks* ranks, const InAllBands* bands)
+                                        Ranks* ranks, const InAllBands<D>* bands)
     : ranks_(ranks),
       scene_(&scene),
       shot_(shot),
@@ -117,7 +121,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       domain_(domain_of(scene, medium(), shot, dt_s_)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
-      effects_(make_effects()),
+      effects_(make_effects(bands)),
       recorder_(state_.layout, domain_, scene, shot, unit_, ranks),
       sink_(sink),
       snapshots_(state_.layout, domain_, sink ? scene.snapshot_every_s : std::nullopt,
@@ -139,9 +143,9 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
 
 /// Faces that fractures split are there before what exchanges memory with other ranks asks how much there is.
 template <int D, class Real>
-Effects<D, Real> ShotSimulation<D, Real>::make_effects() {
+Effects<D, Real> ShotSimulation<D, Real>::make_effects(const InAllBands<D>* bands) {
   sweeps_.split_faces(domain_, dt_s_, unit_);
-  return builder().effects(shot_, unit_, ranks_);
+  return builder().effects(shot_, unit_, ranks_, bands && bands->ground ? &*bands->ground : nullptr);
 }
 
 template <int D, class Real>

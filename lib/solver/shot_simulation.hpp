@@ -19,14 +19,16 @@
 namespace slipwave::solver {
 
 /// What grids that one shot is simulated in together have alike (BandedShot).
+template <int D>
 struct InAllBands {
   double unit = 1;              // of the fields
   double largest_velocity = 0;  // beyond which they have diverged, m/s
+  std::optional<PlaneWaveGround<D>> ground;
 };
 
-/// For the scenes of all bands.
+/// For the scenes of all bands of a scene.
 template <int D>
-InAllBands in_all_bands(const std::vector<Scene<D>>& bands, std::size_t shot);
+InAllBands<D> in_all_bands(const Scene<D>& scene, const std::vector<Scene<D>>& bands, std::size_t shot);
 
 /// Everything one shot needs: the fields, their sweeps, the effects and records of its time step
 /// (build_step.hpp), and what executes it.
@@ -36,7 +38,7 @@ class ShotSimulation {
   /// Collective where there are `ranks` (may be null), and so are run_to(), take_gather() and report(); the
   /// scene is then the subdomain of each. Keeps references.
   ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots,
-                 Ranks* ranks = nullptr, const InAllBands* bands = nullptr);
+                 Ranks* ranks = nullptr, const InAllBands<D>* bands = nullptr);
 
   /// Advances the fields to the end of step last - 1, or less far once `pause` returns true (any thread calls
   /// it from time to time). `progress` is told of each step. Throws DivergedFields.
@@ -89,7 +91,7 @@ class ShotSimulation {
  private:
   StepBuilder<D, Real> builder() { return {*scene_, domain_, state_, dt_s_}; }
   const Medium<D>& medium() const { return attenuating_ ? *attenuating_ : scene_->model.medium; }
-  Effects<D, Real> make_effects();
+  Effects<D, Real> make_effects(const InAllBands<D>* bands);
   std::vector<Record<D, Real>*> records();
   std::unique_ptr<Halo<D, Real>> make_halo();
   void check_together();

@@ -67,7 +67,7 @@ class BandedBox {
   BandedBox(const BandedGround& ground, int ratio, int order, double cfl)
       : scene_(scene_of(ground, ratio, order, cfl)), shot_(scene_, 1) {
     std::mt19937 engine(1);
-    const double unit = solver::in_all_bands(shot_.scenes(), 1).unit;
+    const double unit = solver::in_all_bands(scene_, shot_.scenes(), 1).unit;
     for (std::size_t band = 0; band < shot_.scenes().size(); ++band) {
       const auto& domain = shot_.part(band).domain();
       const auto& medium = shot_.scenes()[band].model.medium;

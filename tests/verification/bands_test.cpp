@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
+#include "accuracy/full_space.hpp"
 #include "long_form.hpp"
 #include "memory_archive.hpp"
 #include "model/fracture.hpp"
@@ -18,7 +20,8 @@
 namespace slipwave::solver::bands_test {
 namespace {
 
-constexpr Rock soft{900, 300, 1800}, mud{1600, 400, 1500}, hard{3500, 2000, 2300}, sea{1500, 0, 1000};
+constexpr Rock soft{900, 300, 1800}, stiff_soil{1200, 600, 1900}, mud{1600, 400, 1500},
+    hard{3500, 2000, 2300}, sea{1500, 0, 1000};
 
 /// Of all traces together, relative.
 double difference(const Gather& found, const Gather& wanted) {
@@ -239,6 +242,67 @@ TEST(Bands, GiveSnapshotsOnTheCellsOfTheModel) {
   EXPECT_LT(std::sqrt(squares / all), 0.05);
 }
 
+/// A plane wave in soil over rock, in cells of one size.
+template <int D>
+Scene<D> shaken_ground(const std::string& kind, const Index<D>& shape, double cell_m) {
+  Scene<D> scene;
+  auto& medium = scene.model.medium = Medium<D>(Grid<D>{shape, cell_m, {}});
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+    const auto& rock = medium.grid().depth(medium.grid().index(n)) < 30 ? stiff_soil : hard;
+    const auto cell = std::size_t(n);
+    medium.vp[cell] = float(rock.vp), medium.vs[cell] = float(rock.vs), medium.rho[cell] = float(rock.rho);
+  }
+  scene.model.fracture = Field<D, std::uint8_t>(medium.grid());
+  Point<D> source;
+  for (int axis = 0; axis < D; ++axis)
+    source[std::size_t(axis)] = double(shape[std::size_t(axis)]) * cell_m * (axis == D - 1 ? 1 : 0.5);
+  scene.survey.sources = {{source, parse_mechanism<D>(kind), parse_wavelet("ricker:10"), 0.002}};
+  for (const double depth : {0., 12.5, 50.}) {
+    auto at = source;
+    at[D - 1] = depth;
+    scene.survey.receivers_m.push_back(at);
+  }
+  for (int axis = 0; axis < D; ++axis) scene.edges[axis] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
+  scene.edges[D - 1][0] = EdgeLaw::free;
+  scene.recording = {{Component::vx, Component::vz}, 0.6, 0.001};
+  scene.numerics.order = 7;
+  return scene;
+}
+
+// Proves (A16).
+TEST(Bands, LetAPlaneSWaveShakeSoilAsInTheClosedForm) {
+  auto scene = shaken_ground<2>("plane-s:180", {48, 96}, 1);
+  scene.numerics.bands = {{0, 1}, {30, 3}};
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  // v = 2 cos(k z)/(cos(k H) + i alpha sin(k H)) of the wave that comes to the depth H, alpha the ratio of
+  // impedances: what the free surface and the interface of a layer make of a vertical wave. One that travels
+  // up moves towards -x first.
+  const double alpha = stiff_soil.rho * stiff_soil.vs / (hard.rho * hard.vs), height = 30;
+  for (std::size_t n = 0; n < scene.survey.receivers_m.size(); ++n) {
+    const double z = scene.survey.receivers_m[n][1];
+    if (z > height) continue;
+    const auto exact = ricker_response(10, 0.001, gather.axis.count, [&](double omega) {
+      const double phase = omega * height / stiff_soil.vs;
+      const std::complex<double> below = std::polar(1., -omega * (96 - height) / hard.vs);
+      return Motion{-0.002 * below * 2. * std::cos(omega * z / stiff_soil.vs) /
+                    (std::cos(phase) + std::complex<double>(0, alpha * std::sin(phase)))};
+    });
+    EXPECT_LT(relative_error(gather.traces[n].samples, exact[0]), 0.004) << "at " << z << " m";
+  }
+}
+
+TEST(Bands, LetAnObliquePlaneWaveThroughInSpaceAsCellsOfOneSizeDo) {
+  auto scene = shaken_ground<3>("plane:165,30", {8, 8, 44}, 3);
+  scene.numerics.zone_cells = 8;
+  scene.recording.duration_s = 0.15;
+  check(scene);
+  auto banded = scene;
+  banded.numerics.bands = {{0, 3}, {72, 6}};
+  check(banded);
+  EXPECT_LT(difference(shoot(banded, 1), shoot(scene, 1)), 0.01);
+}
+
 /// A banded shot, made plainly or in tiles, and in two pieces where the second is made `otherwise`.
 template <int D>
 Gather in_pieces(Scene<D> scene, bool plain, bool otherwise) {
@@ -289,6 +353,7 @@ TEST(Bands, GiveTheSameBitsPlainlyAndInTiles) {
   stack = soft_ground();
   stack.rocks = {hard, soft}, stack.spacing_m = 1;
   expect_same_bits("hard on soft", stack.scene(), {{0, 2}, {30, 1}}, 0.03);
+  expect_same_bits("a plane wave", shaken_ground<2>("plane-s:160", {48, 96}, 1), {{0, 1}, {30, 3}}, 0.1);
 }
 
 TEST(Bands, GiveTheSameBitsPlainlyAndInTilesInSpace) {

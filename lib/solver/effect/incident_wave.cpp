@@ -39,11 +39,12 @@ Clocks<D> SweepClocks<D>::after(const SweepTime& time, double fraction) const {
 
 template <int D, class Real>
 std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene, const Source<D>& source,
-                                                          const Domain<D>& domain, double dt_s) {
-  const auto way = way_of_plane_wave(scene, source);
-  auto wave = std::make_unique<LayeredWave<D, Real>>(scene, source, domain, way, dt_s);
+                                                          const Domain<D>& domain, double dt_s,
+                                                          const PlaneWaveGround<D>* of_bands) {
+  const auto ground = of_bands ? *of_bands : ground_of_plane_wave(scene, source);
+  auto wave = std::make_unique<LayeredWave<D, Real>>(scene, source, domain, ground, dt_s);
   if constexpr (D == 2)
-    if (way.kind == PlaneWaveKind::vertical)
+    if (ground.way.kind == PlaneWaveKind::vertical)
       return make_vertical_wave<Real>(scene, source, std::move(wave), domain, dt_s);
   return wave;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/plane_wave.hpp"
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"
@@ -86,9 +87,11 @@ void set_cells(State<D, Real>& state, Values&& values) {
 
 /// The incident wave of a scene with a plane wave that check(scene) has passed: a vertical one in 2-D along
 /// each side as the column of cells there lets it through, computed with the scheme itself; any other in
-/// closed form (LayeredWave).
+/// closed form (LayeredWave). `of_bands` (else null) is what it travels through where the scene is a band of
+/// cells.
 template <int D, class Real>
 std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene, const Source<D>& source,
-                                                          const Domain<D>& domain, double dt_s);
+                                                          const Domain<D>& domain, double dt_s,
+                                                          const PlaneWaveGround<D>* of_bands = nullptr);
 
 }  // namespace slipwave::solver

@@ -31,29 +31,6 @@ struct Incident {
   }
 };
 
-/// The layers of the column of cells that `way` names.
-template <int D>
-ColumnOfLayers layers_of(const Scene<D>& scene, const Domain<D>& domain, const PlaneWaveWay<D>& way) {
-  constexpr int z = D - 1;
-  const auto& medium = scene.model.medium;
-  ColumnOfLayers column;
-  double depth = 0;
-  for (std::int64_t k = 0; k < domain.grid.shape[z]; ++k) {
-    auto cell = way.column;
-    cell[z] = std::clamp<std::int64_t>(k - domain.low_zone[z], 0, domain.model_grid.shape[z] - 1);
-    const double top = top_of_row(domain, k);
-    depth = top_of_row(domain, k + 1);
-    const auto layer = material_of(medium, std::size_t(medium.grid().flat(cell)));
-    if (column.layers.empty() || !(column.layers.back() == layer)) {
-      column.layers.push_back(layer);
-      column.depths_m.push_back(top);
-    }
-    column.of_row.push_back(column.layers.size() - 1);
-  }
-  column.depths_m.push_back(depth);
-  return column;
-}
-
 /// The times that a wave in layers is asked for: of any cell, and when it comes to the first row.
 template <int D>
 SeriesWindow window_of(const Scene<D>& scene, const Source<D>& source, const Grid<D>& grid,
@@ -87,17 +64,15 @@ TimeSeries series_of_wavelet(const Wavelet& wavelet) {
 
 template <int D, class Real>
 LayeredWave<D, Real>::LayeredWave(const Scene<D>& scene, const Source<D>& source, const Domain<D>& domain,
-                                  const PlaneWaveWay<D>& way, double dt_s)
+                                  PlaneWaveGround<D> ground, double dt_s)
     : grid_(domain.grid), at_m_(source.position_m), rounding_s_(1e-6 * dt_s) {
-  const auto& medium = scene.model.medium;
-  const auto& wave = std::get<PlaneWave<D>>(source.mechanism);
-  const auto rock = material_of(medium, std::size_t(medium.grid().flat(way.entry)));
-  const Incident<D> incident(wave, rock);
+  const auto& way = ground.way;
+  const Incident<D> incident(std::get<PlaneWave<D>>(source.mechanism), ground.rock);
   slowness_ = incident.slowness;
   if (way.by_entry_only) only_ = way.entry_side;
   beside_steps_ = 1;
   for (std::size_t axis = 0; axis + 1 < D; ++axis)
-    beside_steps_ += std::abs(slowness_[axis]) * fastest_speed(medium, scene.subdomain);
+    beside_steps_ += std::abs(slowness_[axis]) * fastest_speed(scene.model.medium, scene.subdomain);
   // Sweeps of a step advance fields by more than a step nowhere.
   beside_steps_ *= 3;
   const auto sweeps = splitting(D, scene.numerics.time_order);
@@ -110,14 +85,14 @@ LayeredWave<D, Real>::LayeredWave(const Scene<D>& scene, const Source<D>& source
   reads_.resize(stages_.size());
   const auto depths_m = depths_of_rows(domain);
   if (way.kind == PlaneWaveKind::layered)
-    set_in_layers({layers_of(scene, domain, way),
+    set_in_layers({std::move(ground.layers),
                    {scene.edges[D - 1][0], scene.edges[D - 1][1]},
                    way.entry_side == 0,
                    slowness_,
                    incident.motion},
                   source, window_of(scene, source, grid_, slowness_, depths_m), depths_m);
   else
-    set_in_one_medium(rock, source, incident.motion, depths_m);
+    set_in_one_medium(ground.rock, source, incident.motion, depths_m);
   sum_long_reads();
 }
 
@@ -231,11 +206,11 @@ void LayeredWave<D, Real>::set_in_layers(LayerStack<D> stack, const Source<D>& s
   StackSeries series(
       {response.waves().begin(), response.waves().end()},
       [&](Complex omega) { return response.solve(omega); }, source.wavelet, source.amplitude, times);
-  const auto& column = response.stack().column;
-  layers_ = column.of_row;
+  const auto& layers = response.stack().layers;
+  for (const double depth : depths_m) layers_.push_back(layers.at(depth));
   later_s_.assign(depths_m.size(), 0);
   std::vector<std::vector<AxisWave>> along_x;
-  for (const auto& rock : column.layers) {
+  for (const auto& rock : layers.rocks) {
     along_x.push_back(axis_waves(elasticity_of<D>(rock), rock.rho, 0));
     for (std::size_t stage = 0; stage < stages_.size(); ++stage) {
       std::vector<Read> reads;

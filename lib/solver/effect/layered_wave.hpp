@@ -19,9 +19,9 @@ namespace slipwave::solver {
 template <int D, class Real>
 class LayeredWave : public IncidentWave<D, Real> {
  public:
-  /// Keeps no reference. In layers where `way` says so, else in the medium of the cell it enters by.
+  /// Keeps no reference. In layers where the way says so, else in the rock of the boundary it enters by.
   LayeredWave(const Scene<D>& scene, const Source<D>& source, const Domain<D>& domain,
-              const PlaneWaveWay<D>& way, double dt_s);
+              PlaneWaveGround<D> ground, double dt_s);
 
   void begin(State<D, Real>& state) override;
   bool enters(int axis, int side) const override { return !only_ || (axis == D - 1 && side == *only_); }

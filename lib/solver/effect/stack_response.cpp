@@ -50,7 +50,7 @@ template WaveFields<3> fields_of_motion(const Elasticity<3>&, const Point<3>&, c
 
 template <int D>
 StackResponse<D>::StackResponse(LayerStack<D> stack) : stack_(std::move(stack)) {
-  const auto& layers = stack_.column.layers;
+  const auto& rocks = stack_.layers.rocks;
   const auto& p = stack_.slowness;
   const auto add = [&](std::size_t layer, bool down, Complex q,
                        const std::array<Complex, std::size_t(D)>& motion) {
@@ -58,32 +58,32 @@ StackResponse<D>::StackResponse(LayerStack<D> stack) : stack_(std::move(stack)) 
     std::copy(p.begin(), p.end(), slowness.begin());
     slowness.back() = q;
     waves_.push_back({{layer, reference_of(layer, down), q},
-                      fields_of_motion<D, Complex>(elasticity_of<D>(layers[layer]), slowness, motion)});
+                      fields_of_motion<D, Complex>(elasticity_of<D>(rocks[layer]), slowness, motion)});
   };
-  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+  for (std::size_t layer = 0; layer < rocks.size(); ++layer) {
     first_wave_.push_back(waves_.size());
     for (const bool down : {true, false}) {
       if (comes_from_outside(layer, down)) continue;
-      for (const auto& wave : waves_of(layers[layer], p, down)) add(layer, down, wave.down, wave.motion);
+      for (const auto& wave : waves_of(rocks[layer], p, down)) add(layer, down, wave.down, wave.motion);
     }
   }
   first_wave_.push_back(waves_.size());
   std::array<Complex, std::size_t(D)> motion;
   std::copy(stack_.motion.begin(), stack_.motion.end(), motion.begin());
-  add(stack_.from_top ? 0 : layers.size() - 1, stack_.from_top, p.back(), motion);
+  add(stack_.from_top ? 0 : rocks.size() - 1, stack_.from_top, p.back(), motion);
 }
 
 template <int D>
 bool StackResponse<D>::comes_from_outside(std::size_t layer, bool down) const {
   if (down) return layer == 0 && stack_.ends[0] == EdgeLaw::absorbing;
-  return layer + 1 == stack_.column.layers.size() && stack_.ends[1] == EdgeLaw::absorbing;
+  return layer + 1 == stack_.layers.rocks.size() && stack_.ends[1] == EdgeLaw::absorbing;
 }
 
 /// Returns the depth at which the amplitude of a wave is 1, in m: at the face that it leaves, in half-spaces
 /// at their face.
 template <int D>
 double StackResponse<D>::reference_of(std::size_t layer, bool down) const {
-  const double top = stack_.column.depths_m[layer], bottom = stack_.column.depths_m[layer + 1];
+  const double top = stack_.layers.depths_m[layer], bottom = stack_.layers.depths_m[layer + 1];
   if (comes_from_outside(layer, true)) return bottom;
   if (comes_from_outside(layer, false)) return top;
   return down ? top : bottom;
@@ -93,7 +93,7 @@ template <int D>
 std::vector<Complex> StackResponse<D>::solve(Complex omega) const {
   // Equations of a face hold the waves of both its layers.
   BandSystem<std::size_t(4 * D)> equations(waves_.size() - 1);
-  const auto& first = stack_.column.layers.front();
+  const auto& first = stack_.layers.rocks.front();
   const double unit = first.rho * first.vp;
   std::size_t row = 0;
   const auto value = [&](const Wave& wave, std::size_t field, double z) {
@@ -128,10 +128,10 @@ std::vector<Complex> StackResponse<D>::solve(Complex omega) const {
         if (axis < D - 1 && !welded && solid(layer)) vanishes(traction<D>(axis), z, layer);
     }
   };
-  const auto& depths = stack_.column.depths_m;
+  const auto& depths = stack_.layers.depths_m;
   end(0, stack_.ends[0], depths.front());
-  for (std::size_t n = 0; n + 1 < stack_.column.layers.size(); ++n) face(n, depths[n + 1]);
-  end(stack_.column.layers.size() - 1, stack_.ends[1], depths.back());
+  for (std::size_t n = 0; n + 1 < stack_.layers.rocks.size(); ++n) face(n, depths[n + 1]);
+  end(stack_.layers.rocks.size() - 1, stack_.ends[1], depths.back());
   auto amplitudes = equations.solve();
   amplitudes.emplace_back(1);
   return amplitudes;

@@ -7,6 +7,7 @@
 
 #include "rock/elasticity.hpp"
 #include "scene/edges.hpp"
+#include "scene/plane_wave.hpp"
 #include "solver/effect/stack_series.hpp"
 #include "solver/sweep/state.hpp"
 
@@ -22,18 +23,11 @@ WaveFields<D, Number> fields_of_motion(const Elasticity<D>& stiffness,
                                        const std::array<Number, std::size_t(D)>& slowness,
                                        const std::array<Number, std::size_t(D)>& velocity);
 
-/// The layers of the column of cells that holds them; of each row of the computed grid the one it is in.
-struct ColumnOfLayers {
-  std::vector<Material> layers;  // downwards
-  std::vector<double> depths_m;  // top of each layer and, behind the last, its bottom
-  std::vector<std::size_t> of_row;
-};
-
 /// A stack of layers of any symmetry on which a plane wave falls; the first and the last are half-spaces
 /// where their end absorbs. A layer is fluid where vs = 0.
 template <int D>
 struct LayerStack {
-  ColumnOfLayers column;
+  LevelLayers layers;
   std::array<EdgeLaw, 2> ends{};  // of top and bottom
   bool from_top = true;
   Point<D> slowness{}, motion{};  // of the incident wave, s/m and of unit size
@@ -61,7 +55,7 @@ class StackResponse {
  private:
   bool comes_from_outside(std::size_t layer, bool down) const;
   double reference_of(std::size_t layer, bool down) const;
-  bool solid(std::size_t layer) const { return stack_.column.layers[layer].vs > 0; }
+  bool solid(std::size_t layer) const { return stack_.layers.rocks[layer].vs > 0; }
 
   LayerStack<D> stack_;
   std::vector<Wave> waves_;
