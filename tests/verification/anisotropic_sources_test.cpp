@@ -444,8 +444,10 @@ TEST(ForceInAnisotropicSpace, IsThatOfPlaneWavesInAllDirections) {
   EXPECT_LT(error_of_a_force(triclinic, 12), 0.02);
   if (!long_form()) return;
   for (const auto& rock : {shale, crossed, cracked})
-    for (const int order : {5, 7}) EXPECT_LT(error_of_a_force(rock, 16, order), 0.01) << order;
-  EXPECT_LT(error_of_a_force(crossed, 24, 5), 0.005);
+    for (const int order : {5, 7}) {
+      EXPECT_LT(error_of_a_force(rock, 16, order), 0.01) << order;
+      EXPECT_LT(error_of_a_force(rock, 24, order), 0.005) << order;
+    }
   EXPECT_LT(error_of_a_force(along_y, 24), 0.004);
   EXPECT_LT(error_of_a_force(triclinic, 24), 0.005);
   for (const auto& rock : {along_y, turned_by(crossed, -50, 35), askew})
@@ -457,7 +459,7 @@ TEST(ForceInAnisotropicSpace, IsThatOfComplexStiffnesses) {
   const ThreadLimit one_thread(1);
   EXPECT_LT(error_with_loss(turned_by(shale, 30, 90), {30, 20}, 10, 2), 0.03);
   if (!long_form()) return;
-  for (const auto& rock : {cracked, askew})
+  for (const auto& rock : {shale, cracked, turned_by(shale, 30, 90), turned_by(crossed, -50, 35), askew})
     EXPECT_LT(error_with_loss(rock, {30, 20}, 16, 20), 0.01) << rock.tilt;
 }
 
@@ -466,8 +468,10 @@ TEST(ForceInAnisotropicSpace, InFittedRowsIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
   EXPECT_LT(error_in_curvilinear_rows(askew, 10), 0.04);
   if (!long_form()) return;
-  EXPECT_LT(error_in_curvilinear_rows(shale, 12), 0.03);
-  EXPECT_LT(error_in_curvilinear_rows(askew, 18), 0.01);
+  for (const auto& rock : {shale, askew}) {
+    EXPECT_LT(error_in_curvilinear_rows(rock, 12), 0.03) << rock.tilt;
+    EXPECT_LT(error_in_curvilinear_rows(rock, 18), 0.01) << rock.tilt;
+  }
 }
 
 /// An experiment in rock below a surface, or a floor of water, that is level, or dips along x and y. Places
