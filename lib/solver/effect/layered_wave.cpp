@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "base/instantiate.hpp"
 #include "rock/coefficients.hpp"
@@ -31,10 +30,25 @@ struct Incident {
   }
 };
 
-/// The times that a wave in layers is asked for: of any cell, and when it comes to the first row.
+/// Depths of the centres of rows of the computed grid, m; all rows are level.
+template <int D>
+std::vector<double> depths_of_rows(const Domain<D>& domain) {
+  std::vector<double> depths_m;
+  for (std::int64_t k = 0; k < domain.grid.shape[D - 1]; ++k) {
+    Index<D> above{}, below{};
+    above[D - 1] = k, below[D - 1] = k + 1;
+    depths_m.push_back(domain.model_grid.rows ? (corner_depth(domain, above) + corner_depth(domain, below)) *
+                                                    domain.grid.spacing_m / 2
+                                              : domain.grid.centre(D - 1, k));
+  }
+  return depths_m;
+}
+
+/// The times that a wave in layers is asked for: of any cell, and when it comes to the first row. Its
+/// amplitude is counted at the depth reference_m.
 template <int D>
 SeriesWindow window_of(const Scene<D>& scene, const Source<D>& source, const Grid<D>& grid,
-                       const Point<D>& slowness, const std::vector<double>& depths_m) {
+                       const Point<D>& slowness, const std::vector<double>& depths_m, double reference_m) {
   double least = 0, most = 0;
   for (int axis = 0; axis < D - 1; ++axis) {
     const double at = source.position_m[std::size_t(axis)], along = slowness[std::size_t(axis)];
@@ -42,9 +56,11 @@ SeriesWindow window_of(const Scene<D>& scene, const Source<D>& source, const Gri
     least += std::min(low, high);
     most += std::max(low, high);
   }
-  SeriesWindow window{0, -most, scene.recording.duration_s + 0.1 * source.wavelet.duration_s() - least};
-  for (const double z : {depths_m.front(), depths_m.back()})
-    window.first_s = std::min(window.first_s, slowness[D - 1] * (z - source.position_m[D - 1]));
+  const auto arrival_s = [&](double z) { return slowness[D - 1] * (z - source.position_m[D - 1]); };
+  SeriesWindow window{arrival_s(reference_m), -most,
+                      scene.recording.duration_s + 0.1 * source.wavelet.duration_s() - least};
+  for (const double z : {reference_m, depths_m.front(), depths_m.back()})
+    window.first_s = std::min(window.first_s, arrival_s(z));
   window.first_s -= source.wavelet.duration_s();
   return window;
 }
@@ -78,9 +94,8 @@ LayeredWave<D, Real>::LayeredWave(const Scene<D>& scene, const Source<D>& source
   const auto sweeps = splitting(D, scene.numerics.time_order);
   const SweepClocks<D> clocks(sweeps, dt_s);
   for (std::size_t n = 0; n < sweeps.size(); ++n) {
-    const auto at = clocks.before({0, n}).axis_s;
-    for (std::size_t axis = 0; axis + 1 < D; ++axis)
-      stages_.resize(n + 1), stages_[n][axis] = at[axis] - at[D - 1];
+    const auto ahead = ahead_of(clocks.before({0, n}));
+    if (!stage_of(ahead)) stages_.push_back(ahead);
   }
   reads_.resize(stages_.size());
   const auto depths_m = depths_of_rows(domain);
@@ -90,7 +105,7 @@ LayeredWave<D, Real>::LayeredWave(const Scene<D>& scene, const Source<D>& source
                    way.entry_side == 0,
                    slowness_,
                    incident.motion},
-                  source, window_of(scene, source, grid_, slowness_, depths_m), depths_m);
+                  scene, source, depths_m);
   else
     set_in_one_medium(ground.rock, source, incident.motion, depths_m);
   sum_long_reads();
@@ -99,7 +114,7 @@ LayeredWave<D, Real>::LayeredWave(const Scene<D>& scene, const Source<D>& source
 template <int D, class Real>
 double LayeredWave<D, Real>::AxisWave::size(const WaveFields<D>& all) const {
   double sum = 0;
-  for (std::size_t row = 0; row < all.size(); ++row) sum += of[row] * all[row];
+  for (std::size_t row = 0; row < all.size(); ++row) sum += weights[row] * all[row];
   return sum;
 }
 
@@ -125,13 +140,13 @@ auto LayeredWave<D, Real>::axis_waves(const Elasticity<D>& stiffness, double rho
       slowness[axis] = sign / c;
       wave.fields = fields_of_motion<D, double>(stiffness, slowness, moving.vectors[n]);
       for (int i = 0; i < D; ++i) {
-        wave.of[std::size_t(Rows::velocity(i))] = moving.vectors[n][std::size_t(i)] / 2;
-        wave.of[std::size_t(Rows::stress(int(axis), i))] =
+        wave.weights[std::size_t(Rows::velocity(i))] = moving.vectors[n][std::size_t(i)] / 2;
+        wave.weights[std::size_t(Rows::stress(int(axis), i))] =
             -sign * moving.vectors[n][std::size_t(i)] / (2 * rho * c);
       }
       for (std::size_t row = 0; row < rest.size(); ++row)
         for (std::size_t k = 0; k < rest.size(); ++k) {
-          const double term = wave.fields[row] * wave.of[k];
+          const double term = wave.fields[row] * wave.weights[k];
           rest[row][k] -= term;
           largest[row][k] = std::max(largest[row][k], std::abs(term));
         }
@@ -144,7 +159,7 @@ auto LayeredWave<D, Real>::axis_waves(const Elasticity<D>& stiffness, double rho
     bool any = false;
     for (std::size_t k = 0; k < rest.size(); ++k) {
       if (std::abs(rest[row][k]) <= rounding * largest[row][k]) continue;
-      still.of[k] = rest[row][k];
+      still.weights[k] = rest[row][k];
       any = true;
     }
     if (any) waves.push_back(still);
@@ -196,16 +211,14 @@ void LayeredWave<D, Real>::set_in_one_medium(const Material& rock, const Source<
 }
 
 template <int D, class Real>
-void LayeredWave<D, Real>::set_in_layers(LayerStack<D> stack, const Source<D>& source,
-                                         const SeriesWindow& window, const std::vector<double>& depths_m) {
+void LayeredWave<D, Real>::set_in_layers(LayerStack<D> stack, const Scene<D>& scene, const Source<D>& source,
+                                         const std::vector<double>& depths_m) {
   using Complex = std::complex<double>;
   const StackResponse<D> response(std::move(stack));
-  auto times = window;
-  times.arrival_s = slowness_[D - 1] * (response.reference_m() - at_m_[D - 1]);
-  times.first_s = std::min(times.first_s, times.arrival_s - source.wavelet.duration_s());
   StackSeries series(
       {response.waves().begin(), response.waves().end()},
-      [&](Complex omega) { return response.solve(omega); }, source.wavelet, source.amplitude, times);
+      [&](Complex omega) { return response.solve(omega); }, source.wavelet, source.amplitude,
+      window_of(scene, source, grid_, slowness_, depths_m, response.reference_m()));
   const auto& layers = response.stack().layers;
   for (const double depth : depths_m) layers_.push_back(layers.at(depth));
   later_s_.assign(depths_m.size(), 0);
@@ -228,7 +241,7 @@ void LayeredWave<D, Real>::set_in_layers(LayerStack<D> stack, const Source<D>& s
       std::array<Complex, count> sizes{};
       for (std::size_t k = 0; k < waves.size(); ++k)
         for (std::size_t field = 0; field < count; ++field)
-          sizes[k] += waves[k].of[field] * response.waves()[n].fields[field];
+          sizes[k] += waves[k].weights[field] * response.waves()[n].fields[field];
       return sizes;
     });
     series_.emplace_back();
@@ -243,8 +256,7 @@ TimeSeries LayeredWave<D, Real>::sum_of(const std::vector<Read>& reads, const st
   double first_s = none, end_s = -none, interval_s = none;
   const auto each = [&](const auto& see) {
     for (const auto& read : reads)
-      if (const auto& of = series[read.series]; read.fields[field] != 0 && of.memory_bytes() > 0)
-        see(read, of);
+      if (const auto& of = series[read.series]; read.fields[field] != 0 && !of.empty()) see(read, of);
   };
   each([&](const Read& read, const TimeSeries& of) {
     first_s = std::min(first_s, of.first_s() - read.earlier_s);
@@ -297,14 +309,21 @@ double LayeredWave<D, Real>::later_by(const Index<D>& line) const {
 }
 
 template <int D, class Real>
-std::size_t LayeredWave<D, Real>::stage_of(const Clocks<D>& clocks) const {
+auto LayeredWave<D, Real>::ahead_of(const Clocks<D>& clocks) -> Ahead {
+  Ahead ahead;
+  for (std::size_t axis = 0; axis + 1 < D; ++axis) ahead[axis] = clocks.axis_s[axis] - clocks.axis_s[D - 1];
+  return ahead;
+}
+
+template <int D, class Real>
+std::optional<std::size_t> LayeredWave<D, Real>::stage_of(const Ahead& ahead) const {
   for (std::size_t n = 0; n < stages_.size(); ++n) {
     bool here = true;
     for (std::size_t axis = 0; axis + 1 < D; ++axis)
-      here = here && std::abs(clocks.axis_s[axis] - clocks.axis_s[D - 1] - stages_[n][axis]) < rounding_s_;
+      here = here && std::abs(ahead[axis] - stages_[n][axis]) < rounding_s_;
     if (here) return n;
   }
-  throw std::logic_error("no sweep of a step leaves fields at these clocks");
+  return std::nullopt;
 }
 
 template <int D, class Real>
@@ -329,7 +348,7 @@ bool LayeredWave<D, Real>::values(const Clocks<D>& clocks, int, int, const Index
                    clocks.axis_s[D - 1] - later_by(line) - slowness_[0] * (grid_.centre(0, 0) - at_m_[0]);
   std::array<Real, std::size_t(incident_piece)> cells;
   bool any = false;
-  for (const auto& read : reads_[stage_of(clocks)][layers_[std::size_t(line[D - 1])]]) {
+  for (const auto& read : reads_[stage_of(ahead_of(clocks)).value()][layers_[std::size_t(line[D - 1])]]) {
     const auto& of = series[read.series];
     const double t_s = line_s + read.earlier_s, begin_s = t_s + double(x_first) * step_s,
                  end_s = begin_s + double(count - 1) * step_s;

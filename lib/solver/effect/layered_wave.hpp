@@ -39,10 +39,10 @@ class LayeredWave : public IncidentWave<D, Real> {
   };
   /// How much further than sweeps along the last axis those along each other axis have advanced fields, s.
   using Ahead = std::array<double, std::size_t(D - 1)>;
-  /// A wave along an axis that fields are made of: its size is the sum of `of` times them. A sweep along the
-  /// axis moves it as a whole.
+  /// A wave along an axis that fields are made of: its size is the sum of `weights` times them. A sweep along
+  /// the axis moves it as a whole.
   struct AxisWave {
-    WaveFields<D> of{}, fields{};
+    WaveFields<D> weights{}, fields{};
     double velocity = 0;  // m/s
     double size(const WaveFields<D>& all) const;
   };
@@ -51,12 +51,13 @@ class LayeredWave : public IncidentWave<D, Real> {
                              std::size_t first_axis) const;
   void set_in_one_medium(const Material& rock, const Source<D>& source, const Point<D>& motion,
                          const std::vector<double>& depths_m);
-  void set_in_layers(LayerStack<D> stack, const Source<D>& source, const SeriesWindow& window,
+  void set_in_layers(LayerStack<D> stack, const Scene<D>& scene, const Source<D>& source,
                      const std::vector<double>& depths_m);
   void sum_long_reads();
   static TimeSeries sum_of(const std::vector<Read>& reads, const std::vector<TimeSeries>& series,
                            std::size_t field);
-  std::size_t stage_of(const Clocks<D>& clocks) const;
+  static Ahead ahead_of(const Clocks<D>& clocks);
+  std::optional<std::size_t> stage_of(const Ahead& ahead) const;
   const std::vector<TimeSeries>& series_of(const Index<D>& line) const {
     return series_[series_.size() == 1 ? 0 : std::size_t(line[D - 1])];
   }

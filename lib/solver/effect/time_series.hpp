@@ -18,6 +18,7 @@ class TimeSeries {
   void values(double t_s, double step_s, std::int64_t first, std::int64_t count, Real* to) const;
   /// Whether it is zero everywhere between two times.
   bool is_zero(double from_s, double to_s) const { return to_s < first_s_ || from_s > end_s(); }
+  bool empty() const { return samples_.empty(); }
   double first_s() const { return first_s_; }
   double end_s() const { return first_s_ + interval_s_ * double(samples_.size()); }
   double interval_s() const { return interval_s_; }

@@ -515,24 +515,6 @@ double corner_depth(const Domain<D>& domain, Index<D> corner) {
 }
 
 template <int D>
-double top_of_row(const Domain<D>& domain, std::int64_t row) {
-  const double h = domain.grid.spacing_m;
-  if (!domain.model_grid.rows) return domain.grid.centre(D - 1, row) - h / 2;
-  Index<D> corner{};
-  corner[D - 1] = row;
-  return corner_depth(domain, corner) * h;
-}
-
-template <int D>
-std::vector<double> depths_of_rows(const Domain<D>& domain) {
-  std::vector<double> depths;
-  for (std::int64_t k = 0; k < domain.grid.shape[D - 1]; ++k)
-    depths.push_back(domain.model_grid.rows ? (top_of_row(domain, k) + top_of_row(domain, k + 1)) / 2
-                                            : domain.grid.centre(D - 1, k));
-  return depths;
-}
-
-template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
                       const Subdomain& part, int order) {
   constexpr int z = D - 1;
@@ -679,8 +661,6 @@ SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_of_loops);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_at);
 SLIPWAVE_INSTANTIATE_D(TYPE, class Domain);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, corner_depth);
-SLIPWAVE_INSTANTIATE_D(FUNCTION, top_of_row);
-SLIPWAVE_INSTANTIATE_D(FUNCTION, depths_of_rows);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, make_domain);
 SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, fill_material);
 SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, energy_of_cell);

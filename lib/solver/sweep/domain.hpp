@@ -193,12 +193,6 @@ bool anisotropic_across_rows(const Domain<D>& domain, const Index<D>& cell) {
 /// their shape.
 template <int D>
 double corner_depth(const Domain<D>& domain, Index<D> corner);
-/// Depth of the corners above a row of the computed grid, m; all rows are level.
-template <int D>
-double top_of_row(const Domain<D>& domain, std::int64_t row);
-/// Depths of the centres of rows, m; all are level.
-template <int D>
-std::vector<double> depths_of_rows(const Domain<D>& domain);
 
 /// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
 /// model; `order` is that of the reconstruction, or a higher one.
