@@ -14,6 +14,8 @@ namespace {
 
 /// A shorter fracture is nothing but tips.
 constexpr double fewest_cells = 3;
+/// Rows are as high as cells are wide but for so little: what depths lose to rounding.
+constexpr double rounding = 1e-6;
 /// A tip opens as far as the trace reaches with these springs (S37): fitted to boundary elements.
 constexpr double tip_compliance = 4.5, normal_share = 1.2;
 
@@ -118,14 +120,37 @@ void join(const Grid<2>& grid, std::vector<SplitFace<2>>& faces) {
   faces = std::move(joined);
 }
 
+/// A depth in rows from the top of the model; beyond it they continue as cells.
+double in_rows(const Grid<2>& grid, double depth_m) {
+  const auto count = grid.rows->cells()[1];
+  std::int64_t row = 0;
+  while (row < count && grid.depth_of_face(row + 1) <= depth_m) ++row;
+  const double height_m = row < count && depth_m >= grid.depth_of_face(0)
+                              ? grid.depth_of_face(row + 1) - grid.depth_of_face(row)
+                              : grid.spacing_m;
+  return double(row) + (depth_m - grid.depth_of_face(row)) / height_m;
+}
+
+/// Whether a fracture between these places, counted in rows, lies outside, or the rows that it crosses and
+/// those next to them are level and as high as cells are wide.
+bool is_regular(const Grid<2>& grid, double top, double bottom) {
+  const auto count = grid.rows->cells()[1];
+  if (bottom < 0 || top > double(count)) return true;
+  const auto first = std::int64_t(std::floor(top)) - 1,
+             last = std::min(std::int64_t(std::ceil(bottom)) + 1, count);
+  for (auto row = std::max<std::int64_t>(first, 0); row < last; ++row) {
+    const double height_m = grid.depth_of_face(row + 1) - grid.depth_of_face(row);
+    if (!grid.rows->row_is_level(row) || !grid.rows->row_is_level(row + 1) ||
+        std::abs(height_m - grid.spacing_m) > rounding * grid.spacing_m)
+      return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace) {
   const auto refuse = [](const std::string& what) { throw Error(what, ErrorKind::usage); };
-  if (grid.rows)
-    refuse(
-        "found a fracture on faces in a model whose rows follow a horizon, expected a regular grid (--fit "
-        "none)");
   const bool level = trace.front()[1] == trace.back()[1], upright = trace.front()[0] == trace.back()[0];
   if (trace.size() != 2 || level == upright)
     refuse(
@@ -135,16 +160,23 @@ FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace) {
   of.axis = level ? 1 : 0;
   const auto across = std::size_t(of.axis), along = 1 - across;
   const auto in_cells = [&](std::size_t axis, double place_m) {
+    if (axis == 1 && grid.rows) return in_rows(grid, place_m);
     return (place_m - grid.origin_m[axis]) / grid.spacing_m;
   };
-  const double place_m = trace.front()[across];
-  of.face = std::int64_t(std::lround(in_cells(across, place_m)));
-  of.moved_m = grid.origin_m[across] + double(of.face) * grid.spacing_m - place_m;
+  const double place_m = trace.front()[across], place = in_cells(across, place_m);
+  of.face = std::int64_t(std::lround(place));
+  of.moved_m = (double(of.face) - place) * grid.spacing_m;
   of.first = in_cells(along, std::min(trace[0][along], trace[1][along]));
   of.last = in_cells(along, std::max(trace[0][along], trace[1][along]));
   if (of.last - of.first < fewest_cells * (1 - 1e-9))
     refuse("found a fracture of " + shown(of.last - of.first, 3) + " cells on faces, expected at least " +
            shown(fewest_cells));
+  const auto [top, bottom] = level ? std::pair(place, place) : std::pair(of.first, of.last);
+  if (grid.rows && !is_regular(grid, top, bottom))
+    refuse(
+        "found a fracture on faces where rows follow a horizon, expected rows there that are level and as "
+        "high "
+        "as cells are wide (--fit none)");
   return of;
 }
 

@@ -46,8 +46,8 @@ struct FacesOfTrace {
   double moved_m = 0;          // from where it is given to this face
 };
 
-/// Throws a usage Error where it is neither level nor upright, bends, is shorter than three cells, or rows
-/// follow horizons; the grid may be part of that of the model.
+/// Throws a usage Error where it is neither level nor upright, bends, is shorter than three cells, or rows at
+/// it are not level and as high as cells are wide; the grid may be part of that of the model.
 FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace);
 /// Returns the faces of a fracture in a whole model; also throws where it lies along the edge of the model.
 FacesOfTrace check_on_faces(const Grid<2>& grid, const FractureTrace<2>& trace);

@@ -131,6 +131,34 @@ std::int64_t face_of_band(const Scene<D>& scene, double depth_m, const RowsBesid
   return face;
 }
 
+/// Fractures on faces lie on those of one band each, as far from others as sweeps read, where the faces of
+/// the model are.
+void check_fractures(const Grid<2>& whole, const std::vector<InCells<2>>& all, std::int64_t beside) {
+  for (const auto& set : all.front().scene.model.fracture_sets) {
+    if (!parts_faces(set)) continue;
+    for (const auto& trace : set.traces) {
+      const auto [top_m, bottom_m] = std::minmax(trace.front()[1], trace.back()[1]);
+      const auto band = std::find_if(all.begin(), all.end(), [&, top_m = top_m](const InCells<2>& each) {
+        return each.last == each.grid().shape[1] || each.grid().depth_of_face(each.last) > top_m;
+      });
+      const auto faces = faces_of(band->grid(), trace);
+      const bool level = faces.axis == 1;
+      const auto first = level ? faces.face : std::int64_t(std::floor(faces.first)),
+                 last = level ? faces.face : std::int64_t(std::ceil(faces.last));
+      const std::string what =
+          "a fracture of '" + set.name + "' on faces " +
+          (level ? "at z=" + shown(top_m) : "from z=" + shown(top_m) + " to " + shown(bottom_m)) + " m";
+      if ((band != all.begin() && first - band->first < beside) ||
+          (band + 1 != all.end() && band->last - last < beside))
+        refuse(what, "it in one band, " + std::to_string(beside) + " rows or more from others");
+      if (std::abs(faces.moved_m) > std::abs(faces_of(whole, trace).moved_m) + rounding * whole.spacing_m)
+        refuse(what + " between faces of cells of " + shown(band->grid().spacing_m) + " m",
+               "cells there whose faces it lies on");
+    }
+  }
+}
+void check_fractures(const Grid<3>&, const std::vector<InCells<3>>&, std::int64_t) {}
+
 /// The model in the cells of each band.
 template <int D>
 std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene, const ModelInCells<D>& models) {
@@ -158,6 +186,7 @@ std::vector<InCells<D>> in_cells_of_bands(const Scene<D>& scene, const ModelInCe
       refuse(
           "a band of " + std::to_string(all[n].rows()) + " rows from z=" + shown(bands[n].from_m) + " m on",
           "at least " + std::to_string(beside) + " at order " + std::to_string(scene.numerics.order));
+  if (scene.with_slip) check_fractures(scene.model.grid(), all, beside);
   return all;
 }
 
@@ -414,8 +443,6 @@ void check_bands(const Scene<D>& scene) {
   }
   if (scene.numerics.time_step_s) refuse("--time-step", "--cfl with bands");
   if (scene.numerics.monotone) refuse("--monotone", "it without bands");
-  if (const auto* const found = first_on_faces(scene.model.fracture_sets); scene.with_slip && found)
-    refuse("fractures '" + found->name + "' on faces", "fractures in cells with bands, or --without slip");
 }
 
 }  // namespace

@@ -77,6 +77,10 @@ Scene<D> make_scene(const ShootingOptions& options) {
   return scene;
 }
 
+bool in_bands(const ShootingOptions& options) {
+  return !options.scene.bands.empty() && options.scene.bands != "none";
+}
+
 /// What several processes cannot do together.
 void check_on_ranks(const ShootingOptions& options, int count) {
   const auto refuse = [&](bool given, const std::string& option, const std::string& remedy) {
@@ -85,7 +89,9 @@ void check_on_ranks(const ShootingOptions& options, int count) {
                   ErrorKind::usage);
   };
   refuse(!options.output.checkpoint.empty(), "--checkpoint", "use one");
-  refuse(!options.scene.bands.empty() && options.scene.bands != "none", "--bands", "use one");
+  refuse(in_bands(options) && !options.output.snapshots.empty(), "--bands with --snapshots", "use one");
+  refuse(in_bands(options) && options.output.ranks_per_shot > 1, "more than one process a shot with --bands",
+         "use --ranks-per-shot 1");
   refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
   refuse(measures(options), "--error, --measure or --error-gather",
          "use one process, then give what it chooses");
@@ -122,9 +128,12 @@ std::string result_in_words(const Scene<D>& scene) {
               : "no direct wave arrives, ");
 }
 
-/// Says in one line what was chosen and what it saves; where bands were not asked for, what they would save.
+/// Chooses bands where that was asked for. Says in one line what was chosen and what it saves; where nothing
+/// was said of bands, what they would save.
 template <int D>
-void choose_bands(Scene<D>& scene, bool asked, const Messages& messages) {
+void say_or_choose_bands(Scene<D>& scene, const ShootingOptions& options, const Messages& messages) {
+  const bool asked = options.scene.bands == "auto";
+  if (!asked && !(options.scene.bands.empty() && messages.heard)) return;
   const auto chosen = bands_for(scene);
   const auto cells = "cells of " + shown(chosen.bands), share = shown(100 * chosen.share, 2) + " %";
   if (asked) scene.numerics.bands = chosen.bands;
@@ -144,8 +153,7 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   release_zeros(scene.model);
   release_freed_memory();
   warn_of_projection(scene.survey, messages);
-  const bool asked = options.scene.bands == "auto";
-  if (asked || (options.scene.bands.empty() && messages.heard)) choose_bands(scene, asked, messages);
+  say_or_choose_bands(scene, options, messages);
   if (!options.wanted_error)
     for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   if (options.plan) return print_plan(scene, options, messages);
@@ -163,12 +171,14 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
                           const Messages& messages, NetcdfFile file, Ranks& ranks) {
   Scene<D> scene;
   collective_try(&ranks, [&] { scene = make_scene<D>(options); });
-  const RankGroups groups(ranks, options.output.ranks_per_shot, scene.survey.sources.size(),
-                          !options.output.snapshots.empty());
+  // A shot in bands is one process's; others compute other shots.
+  const RankGroups groups(ranks, in_bands(options) ? 1 : options.output.ranks_per_shot,
+                          scene.survey.sources.size(), !options.output.snapshots.empty());
   const auto of_model = options.scene.read_part_into(scene, file, ranks, groups.group());
   file.close();
   release_zeros(scene.model);
   release_freed_memory();
+  collective_try(&ranks, [&] { say_or_choose_bands(scene, options, messages); });
   const OutputOptions output = labelled(options.output, scene.survey);
   collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
   collective_try(&ranks, [&] { check_magnitudes(scene, groups.group()); });

@@ -90,6 +90,15 @@ TEST_F(ShotByRanks, IsTheSameWhereFracturesLieOnFaces) {
   expect_same();
 }
 
+TEST_F(ShotByRanks, IsTheSameWhereEachShootsInBands) {
+  done("sw-layers --size 240x120 --step 1 --layer 0:600:300:1800 --layer 30:2400:1200:2200 -o b.nc");
+  const std::string shots_in_bands =
+      "b.nc --source 60,10 --source 180,50 --wavelet ricker:20 --time 0.1 --receivers 20:220:40,0 -q "
+      "--bands ";
+  expect_same_traces(2, shots_in_bands + "0:1,30:4 ");
+  expect_same_traces(3, shots_in_bands + "auto ");  // one has no shot
+}
+
 TEST_F(ShotByRanks, InThreeDimensionsToo) {
   done("sw-layers --size 120x100x300 --step 5 --layer 0:3000:1600:2200 --layer 150:4000:2300:2500 -o c.nc");
   const std::string cube =
@@ -118,6 +127,10 @@ TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {
   expect(shots + "--keep-unstable", 2,
          "found --keep-unstable and an output to standard output, expected the name of a file");
   expect(shots + "--checkpoint c -o o.sgy", 2, "--checkpoint does not work with 3 processes; use one");
+  expect(shots + "--bands 0:2.5,100:5 --ranks-per-shot 3 -o o.sgy", 2,
+         "more than one process a shot with --bands does not work with 3 processes; use --ranks-per-shot 1");
+  expect(shots + "--bands auto --snapshots s.nc --every 0.1 -o o.sgy", 2,
+         "--bands with --snapshots does not work with 3 processes; use one");
   expect("- " + shots.substr(5) + "-o o.sgy", 2,
          "a model from standard input does not work with 3 processes; give the name of a file");
 }

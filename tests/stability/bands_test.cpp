@@ -9,6 +9,7 @@
 
 #include "acquisition/wavelet.hpp"
 #include "lab.hpp"
+#include "scene/bands.hpp"
 #include "solver/banded_shot.hpp"
 
 namespace slipwave::bands_test {
@@ -22,7 +23,13 @@ struct BandedGround {
   std::string name;
   int widest;  // cells beyond the face, in those before it
   std::function<Material(int i, int k)> rock_at;
+  std::vector<FractureTrace<2>> springs = {}, cracks = {};  // on faces
 };
+
+/// A trace between two places in cells of the box.
+FractureTrace<2> trace(double x1, double z1, double x2, double z2) {
+  return {{x1 * box_cell_m, z1 * box_cell_m}, {x2 * box_cell_m, z2 * box_cell_m}};
+}
 
 Material rock_of(double vp, double vs, double rho) {
   Material rock;
@@ -39,7 +46,14 @@ Material varied(const Material& rock, int i, int k) {
 std::vector<BandedGround> banded_grounds() {
   const auto soft = rock_of(900, 300, 1800), hard = rock_of(3500, 2000, 2300), water = rock_of(1500, 0, 1000),
              mud = rock_of(1600, 150, 1500);
+  // As near to the face as they may be at order 11.
+  const double above = face_row - double(rows_beside_band(11)), below = face_row + 2. * rows_beside_band(11);
   return {
+      {"FracturesOnFaces",
+       2,
+       [=](int, int) { return hard; },
+       {trace(20, above, 60, above), trace(70, below, 70, 90)},
+       {trace(80, 10, 80, above), trace(20, below, 60, below)}},
       {"SoftOverHard", 4, [=](int, int k) { return k < face_row ? soft : hard; }},
       {"HardOverSoft", 4, [=](int, int k) { return k < face_row ? hard : soft; }},
       {"WaterOverHard", 4, [=](int, int k) { return k < face_row ? water : hard; }},
@@ -86,6 +100,15 @@ class BandedBox {
   static Scene<2> scene_of(const BandedGround& ground, int ratio, int order, double cfl) {
     Scene<2> scene;
     scene.model.medium = of_rocks(box_cells, ground.rock_at);
+    for (const bool open : {false, true}) {
+      const auto& traces = open ? ground.cracks : ground.springs;
+      if (traces.empty()) continue;
+      SlipSystem<2> planes;
+      planes.law = FrictionLaw::none;
+      planes.compliance.normal_m_per_pa = open ? HUGE_VAL : 1e-10;
+      planes.compliance.tangential_m_per_pa = open ? HUGE_VAL : 2e-10;
+      scene.model.fracture_sets.push_back({open ? "cracks" : "springs", {planes}, traces, true});
+    }
     scene.edges = all_edges(EdgeLaw::free);
     scene.numerics.order = order;
     scene.numerics.cfl = cfl;

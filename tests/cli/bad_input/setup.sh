@@ -12,6 +12,8 @@ printf '0 0 10\n50 0 10\n50 50 30\n0 50 10\n' > bent.txt
 sw-layers --size 300x100 --step 10 --layer 0:2000:1000:2000 -o rock.nc
 sw-layers --size 100x50 --step 5 --layer 0:2000:1000:2000 -o small.nc
 sw-fracture rock.nc --segment 50,50:250,50 --faces --friction 0.5 --viscosity 0 --prestress=-1e4,-1e4,4e3 -o faulted.nc
+sw-layers --size 200x400 --step 5 --layer 0:2000:1000:2000 |
+  sw-fracture - --segment 50,45:150,45 --faces --compliance 1e-10,1e-10 -o cracked.nc
 printf '0 50\n200 70\n' > sloping.txt
 sw-layers -q --size 200x100 --step 5 --layer 0:1500:0:1000 --layer @sloping.txt:3000:1500:2200 -o sloping.nc
 sw-layers -q --size 200x100 --step 5 --fit none --layer 0:2000:1000:2000 --layer @sloping.txt:3000:1500:2200 -o cut.nc
