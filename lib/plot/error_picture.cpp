@@ -65,8 +65,9 @@ void draw_content(Canvas& canvas, const Panel& panel, const Content& content) {
     for (const auto& point : curve.series.points) {
       const Spot spot{panel.x(point.seconds), panel.y(point.error)};
       if (point.chosen) canvas.ring(spot, ring_pt, {chosen_colour, 1.4});
-      labels.label(canvas, spot, point.chosen ? 2 * ring_pt : marker_pt, shown(point.spacing_m) + " m",
-                   curve.colour);
+      if (point.spacing_m > 0)  // known
+        labels.label(canvas, spot, point.chosen ? 2 * ring_pt : marker_pt, shown(point.spacing_m) + " m",
+                     curve.colour);
     }
   }
 }

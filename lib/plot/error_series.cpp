@@ -12,7 +12,8 @@ std::vector<ErrorSeries> series_of(const AccuracyTable& table) {
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
     const auto& row = table.rows[n];
     if (!(row.seconds > 0 && row.error > 0)) continue;
-    const Method method{row.order, row.time_order, row.slip_order, row.courant, row.monotone};
+    const double courant = row.courant > 0 ? row.courant : 0;  // else not known
+    const Method method{row.order, row.time_order, row.slip_order, courant, row.monotone};
     auto series = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.method == method; });
     if (series == all.end()) series = all.insert(all.end(), {method, {}});
     series->points.push_back({row.spacing_m, row.seconds, 100 * row.error, table.chosen == n});
@@ -36,7 +37,7 @@ std::string name_of(const Method& method, const std::vector<Method>& methods) {
             : method.slip_order == 3 ? ", exponential slip"
                                      : ", slip order " + std::to_string(method.slip_order);
   if (method.monotone) name += ", monotone";
-  if (differ(&Method::courant)) name += ", Courant " + shown(method.courant);
+  if (method.courant > 0 && differ(&Method::courant)) name += ", Courant " + shown(method.courant);
   return name;
 }
 

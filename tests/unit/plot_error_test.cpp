@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
@@ -53,6 +54,18 @@ TEST(PlotError, MethodsBecomeLinesFromCoarseToFineCells) {
   EXPECT_EQ(series[2].points[0].spacing_m, 10);
   EXPECT_EQ(series[2].points[1].spacing_m, 5);
   EXPECT_DOUBLE_EQ(series[2].points[1].error, 1);  // percent
+}
+
+TEST(PlotError, WhatIsNotKnownIsNotNamed) {
+  AccuracyTable peer;
+  AccuracyRow row;
+  row.spacing_m = row.courant = std::nan("");
+  for (const double error : {0.01, 0.001})
+    row.error = error, row.seconds = 1 / error, peer.rows.push_back(row);
+  const auto series = series_of(peer);
+  ASSERT_EQ(series.size(), 1u);
+  EXPECT_EQ(series[0].points.size(), 2u);
+  EXPECT_EQ(name_of(series[0].method, {series[0].method, {5, 2, 0, 0.9}}), "order 5");
 }
 
 TEST(PlotError, NamesSayWhatDiffers) {

@@ -33,6 +33,7 @@ struct StackScene {
   std::vector<LayerStack::Receiver> receivers = {};
   double peak_hz = 15, duration_s = 0.6, spacing_m = 5, cfl = 0.9, margin_m = 150;
   int order = 5, time_order = 2, zone_cells = 0;
+  double deeper_m = 0;  // than the margin
   bool fitted = true;
   /// How far below a face of cells the frame of the layers begins, as a part of a cell.
   double shift = 0;
@@ -124,8 +125,8 @@ struct StackScene {
     };
     for (const auto& at : receivers) reach(place(at));
     if (!faces_m.empty() && dip_deg < 90) reach(place({0, faces_m.back()}));
-    if (ends) return {std::llround(origin()[0] / spacing_m), cells(high[1])};
-    return {cells(high[0]), cells(high[1])};
+    if (ends) return {std::llround(origin()[0] / spacing_m), cells(high[1] + deeper_m)};
+    return {cells(high[0]), cells(high[1] + deeper_m)};
   }
   std::int64_t cells(double high_m) const { return std::int64_t(std::ceil((high_m + margin_m) / spacing_m)); }
   Model<2> layered() const {
