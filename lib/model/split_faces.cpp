@@ -175,8 +175,7 @@ FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace) {
   if (grid.rows && !is_regular(grid, top, bottom))
     refuse(
         "found a fracture on faces where rows follow a horizon, expected rows there that are level and as "
-        "high "
-        "as cells are wide (--fit none)");
+        "high as cells are wide (--fit none)");
   return of;
 }
 

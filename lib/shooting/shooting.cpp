@@ -178,7 +178,7 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
   file.close();
   release_zeros(scene.model);
   release_freed_memory();
-  collective_try(&ranks, [&] { say_or_choose_bands(scene, options, messages); });
+  if (in_bands(options)) collective_try(&ranks, [&] { say_or_choose_bands(scene, options, messages); });
   const OutputOptions output = labelled(options.output, scene.survey);
   collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
   collective_try(&ranks, [&] { check_magnitudes(scene, groups.group()); });
