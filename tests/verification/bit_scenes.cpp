@@ -490,7 +490,7 @@ Scene<3> fitted(EdgeLaw sides) {
 
 /// Some discs that cross, soft and stiff.
 Scene<3> discs(int time_order) {
-  auto scene = in_3d(uniform_cube({22, 18, 40}, 5, rock), free, "force:3,1,2");
+  auto scene = in_3d(uniform_cube({22, 18, 44}, 5, rock), free, "force:3,1,2");
   scene.survey.receivers_m = {{34, 41, 142}, {57, 85, 123}};
   const auto add = [&](const FractureTrace<3>& polygon, double z_n, double z_t) {
     SlipSystem<3> system{normal_of_polygon(polygon), 0, 0, 0, false, FrictionLaw::none};
