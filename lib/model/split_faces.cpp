@@ -91,11 +91,41 @@ void add_faces(const Model<2>& model, const FacesOfTrace& of, const SlipSystem<2
   }
 }
 
+/// Where a point is, in rows from the top of a model whose rows are not all alike.
+double place_in_rows(const Grid<2>& grid, const Point<2>& at) {
+  const double row = grid.rows->row_position({grid.in_cells(at)[0], at[1]});
+  return std::abs(row - std::round(row)) < rounding ? std::round(row) : row;
+}
+
+/// Whether a fracture is above or below the rows there are: it is in another band of cells.
+bool lies_outside(const Grid<2>& grid, const FractureTrace<2>& trace) {
+  if (!grid.rows) return false;
+  const auto [top, bottom] =
+      std::minmax({place_in_rows(grid, trace.front()), place_in_rows(grid, trace.back())});
+  return bottom < 0 || top > double(grid.rows->cells()[1]);
+}
+
+/// Whether the rows that a fracture between these places, counted in rows, crosses and those next to them are
+/// level and as high as cells are wide.
+bool is_regular(const Grid<2>& grid, double top, double bottom) {
+  const auto count = grid.rows->cells()[1];
+  const auto first = std::int64_t(std::floor(top)) - 1,
+             last = std::min(std::int64_t(std::ceil(bottom)) + 1, count);
+  for (auto row = std::max<std::int64_t>(first, 0); row < last; ++row) {
+    const double height_m = grid.depth_of_face(row + 1) - grid.depth_of_face(row);
+    if (!grid.rows->row_is_level(row) || !grid.rows->row_is_level(row + 1) ||
+        std::abs(height_m - grid.spacing_m) > rounding * grid.spacing_m)
+      return false;
+  }
+  return true;
+}
+
 void add_faces(const Model<2>& model, const FractureSet<2>& set, std::vector<SplitFace<2>>& faces,
                std::int64_t& left) {
   if (!parts_faces(set)) return;
   for (const auto& trace : set.traces)
-    add_faces(model, faces_of(model.grid(), trace), set.systems.front(), faces, left);
+    if (!lies_outside(model.grid(), trace))
+      add_faces(model, faces_of(model.grid(), trace), set.systems.front(), faces, left);
 }
 
 /// Joins fractures that share a face: their compliances add up; strengths do not. Throws an Error where one
@@ -120,33 +150,6 @@ void join(const Grid<2>& grid, std::vector<SplitFace<2>>& faces) {
   faces = std::move(joined);
 }
 
-/// A depth in rows from the top of the model; beyond it they continue as cells.
-double in_rows(const Grid<2>& grid, double depth_m) {
-  const auto count = grid.rows->cells()[1];
-  std::int64_t row = 0;
-  while (row < count && grid.depth_of_face(row + 1) <= depth_m) ++row;
-  const double height_m = row < count && depth_m >= grid.depth_of_face(0)
-                              ? grid.depth_of_face(row + 1) - grid.depth_of_face(row)
-                              : grid.spacing_m;
-  return double(row) + (depth_m - grid.depth_of_face(row)) / height_m;
-}
-
-/// Whether a fracture between these places, counted in rows, lies outside, or the rows that it crosses and
-/// those next to them are level and as high as cells are wide.
-bool is_regular(const Grid<2>& grid, double top, double bottom) {
-  const auto count = grid.rows->cells()[1];
-  if (bottom < 0 || top > double(count)) return true;
-  const auto first = std::int64_t(std::floor(top)) - 1,
-             last = std::min(std::int64_t(std::ceil(bottom)) + 1, count);
-  for (auto row = std::max<std::int64_t>(first, 0); row < last; ++row) {
-    const double height_m = grid.depth_of_face(row + 1) - grid.depth_of_face(row);
-    if (!grid.rows->row_is_level(row) || !grid.rows->row_is_level(row + 1) ||
-        std::abs(height_m - grid.spacing_m) > rounding * grid.spacing_m)
-      return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace) {
@@ -160,8 +163,8 @@ FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace) {
   of.axis = level ? 1 : 0;
   const auto across = std::size_t(of.axis), along = 1 - across;
   const auto in_cells = [&](std::size_t axis, double place_m) {
-    if (axis == 1 && grid.rows) return in_rows(grid, place_m);
-    return (place_m - grid.origin_m[axis]) / grid.spacing_m;
+    if (axis == 0 || !grid.rows) return (place_m - grid.origin_m[axis]) / grid.spacing_m;
+    return place_in_rows(grid, {trace.front()[0], place_m});
   };
   const double place_m = trace.front()[across], place = in_cells(across, place_m);
   of.face = std::int64_t(std::lround(place));

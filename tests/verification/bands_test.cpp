@@ -173,7 +173,8 @@ TEST(Bands, GiveWayAsCellsOfOneSizeDo) {
   EXPECT_LT(difference(in_bands(scene, {{0, 1}, {30, 4}}), whole), 0.01);
 }
 
-/// Level and upright fractures on faces, in soil and in the rock below it.
+/// Level and upright fractures on faces, in soil and in the rock below it; one is too short for cells of the
+/// rock.
 Scene<2> cracked_ground() {
   auto scene = fractured_ground();
   const auto fractures = [](double compliance_m_per_pa, std::vector<FractureTrace<2>> traces) {
@@ -184,8 +185,9 @@ Scene<2> cracked_ground() {
     return FractureSet<2>{"at " + shown(compliance_m_per_pa), {planes}, std::move(traces), true};
   };
   scene.model.fracture = {};
-  scene.model.fracture_sets = {fractures(3e-9, {{{80, 14}, {120, 14}}, {{150, 4}, {150, 20}}}),
-                               fractures(1e-9, {{{100, 54}, {190, 54}}, {{70, 50}, {70, 74}}})};
+  scene.model.fracture_sets = {
+      fractures(3e-9, {{{80, 14}, {120, 14}}, {{150, 4}, {150, 20}}, {{60, 10}, {64, 10}}}),
+      fractures(1e-9, {{{100, 54}, {190, 54}}, {{70, 50}, {70, 74}}})};
   return scene;
 }
 
