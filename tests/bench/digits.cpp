@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "io/output_file.hpp"
 #include "parallel/threads.hpp"
+#include "samples.hpp"
 #include "solver/simulation.hpp"
 #include "stack_scene.hpp"
 
@@ -82,16 +83,6 @@ std::vector<Compared> scenes() {
            30}};
 }
 
-double error_of(const Gather& found, const Gather& exact) {
-  double off = 0, all = 0;
-  for (std::size_t n = 0; n < exact.traces.size(); ++n)
-    for (std::size_t k = 0; k < exact.traces[n].samples.size(); ++k) {
-      off += std::pow(found.traces[n].samples[k] - exact.traces[n].samples[k], 2);
-      all += std::pow(exact.traces[n].samples[k], 2);
-    }
-  return std::sqrt(off / all);
-}
-
 AccuracyRow row_of(const Compared& compared, const Setting& setting, double spacing_m) {
   auto stack = compared.stack;
   stack.order = setting.order, stack.time_order = setting.time_order;
@@ -107,7 +98,7 @@ AccuracyRow row_of(const Compared& compared, const Setting& setting, double spac
   AccuracyRow row;
   row.seconds = double(std::clock() - began) / CLOCKS_PER_SEC;
   row.order = setting.order, row.time_order = setting.time_order, row.courant = setting.courant;
-  row.spacing_m = spacing_m, row.error = error_of(found, exact);
+  row.spacing_m = spacing_m, row.error = relative_error(samples_of(found), samples_of(exact));
   std::printf("%-12s order %2d, %d in time, Courant %.1f, %6.3f m: %7.3f %% %7.2f s\n", stack.name.c_str(),
               row.order, row.time_order, row.courant, row.spacing_m, 100 * row.error, row.seconds);
   std::fflush(stdout);

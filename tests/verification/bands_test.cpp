@@ -13,6 +13,7 @@
 #include "model/fracture.hpp"
 #include "parallel/threads.hpp"
 #include "planning/measured_error.hpp"
+#include "samples.hpp"
 #include "solver/banded_shot.hpp"
 #include "solver/simulation.hpp"
 #include "stack_scene.hpp"
@@ -25,13 +26,7 @@ constexpr Rock soft{900, 300, 1800}, stiff_soil{1200, 600, 1900}, mud{1600, 400,
 
 /// Of all traces together, relative.
 double difference(const Gather& found, const Gather& wanted) {
-  double squares = 0, all = 0;
-  for (std::size_t n = 0; n < wanted.traces.size(); ++n)
-    for (std::size_t k = 0; k < wanted.traces[n].samples.size(); ++k) {
-      squares += std::pow(found.traces[n].samples[k] - wanted.traces[n].samples[k], 2);
-      all += std::pow(wanted.traces[n].samples[k], 2);
-    }
-  return std::sqrt(squares / all);
+  return relative_error(samples_of(found), samples_of(wanted));
 }
 
 std::vector<LayerStack::Receiver> line_at(double b, double last_a) {
