@@ -133,12 +133,9 @@ template <int D, class Real>
 void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   const auto& layout = state_.layout;
   const std::int64_t lines = layout.lines(), nx = layout.padded_nx();
-  const std::int64_t widest = axis == 0 ? nx : stripe_width;
-  std::vector<Workspace<Real>> work;
-  for (int worker = 0; worker < parallel_workers(); ++worker) {
-    work.push_back(make_workspace(widest));
-    work.back().time() = time;
-  }
+  auto& work = work_of_along_;
+  while (std::ssize(work) < parallel_workers()) work.push_back(make_workspace(nx));
+  for (auto& each : work) each.time() = time;
   for (std::int64_t line = 0; line < lines && axis != z_axis && corrects_surface(axis); ++line)
     retain(axis, line, {0, layout.shape()[0]});
   if (axis == 0) {

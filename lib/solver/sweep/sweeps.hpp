@@ -216,6 +216,7 @@ class Sweeps {
   std::array<std::unique_ptr<SharedFaces<Real>>, 2> shared_;
   IndexRange own_;  // rows of the last axis that along() sweeps
   std::vector<SweepFilter<D, Real>*> filters_;
+  std::vector<Workspace<Real>> work_of_along_;  // by worker, made in its first call
 };
 
 }  // namespace slipwave::solver
