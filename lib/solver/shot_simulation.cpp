@@ -80,8 +80,9 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
 /// The computed grid of a shot. Cells that interfaces cut and that slip are isotropic means.
 template <int D>
 Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot, double dt_s) {
-  auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
-                            scene.subdomain, scene.numerics.order);
+  auto domain =
+      make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]), scene.subdomain,
+                  scene.numerics.order, largest_cfl(scene.numerics) * stable_time_step_s(scene) / dt_s);
   domain.steps = {&medium, dt_s, scene.numerics.time_order};
   const auto& model = scene.model;
   if (scene.with_slip) domain.split = split_faces(model), domain.soft = soft_cells(domain, model);

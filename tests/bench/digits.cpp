@@ -87,8 +87,6 @@ AccuracyRow row_of(const Compared& compared, const Setting& setting, double spac
   auto stack = compared.stack;
   stack.order = setting.order, stack.time_order = setting.time_order;
   stack.cfl = setting.courant, stack.spacing_m = spacing_m;
-  // Edges that a floor runs into aslant send back less the wider they are, in metres.
-  if (stack.dip_deg > 0) stack.zone_cells = std::max(20, int(std::ceil(80 / spacing_m)));
   auto scene = stack.scene();
   if (const double from_m = compared.deeper_from_m; from_m > 0)
     scene.numerics.bands = {{0, spacing_m}, {from_m, 4 * spacing_m}};

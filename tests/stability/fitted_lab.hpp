@@ -30,8 +30,8 @@ class FittedLab {
  public:
   FittedLab(const Medium<D>& medium, const EdgeLaws<D>& edges, const Numbers& numbers)
       : medium_(medium),
-        domain_(solver::make_domain(medium_, edges, numbers.zone_cells, {}, numbers.order)),
         dt_s_(numbers.cfl * medium_.grid().spacing_m / fastest_across_cells(medium_)),
+        domain_(domain_of(medium_, edges, numbers, dt_s_)),
         state_(solver::make_filled_state<D, Real>(domain_, medium_, dt_s_)),
         sweeps_(state_, domain_, numbers.order),
         splitting_(splitting(D, numbers.time_order)) {
@@ -66,6 +66,14 @@ class FittedLab {
   }
 
  private:
+  static solver::Domain<D> domain_of(const Medium<D>& medium, const EdgeLaws<D>& edges,
+                                     const Numbers& numbers, double dt_s) {
+    const double longest = numbers.time_order == 4 ? 2 : 1;
+    auto domain =
+        solver::make_domain(medium, edges, numbers.zone_cells, {}, numbers.order, longest / numbers.cfl);
+    domain.steps = {&medium, dt_s, numbers.time_order};
+    return domain;
+  }
   /// Of a cell of the computed grid, in m: the mean over its corners.
   double height(const Index<D>& at) const {
     double sum = 0;
@@ -103,8 +111,8 @@ class FittedLab {
   }
 
   Medium<D> medium_;
-  solver::Domain<D> domain_;
   double dt_s_;
+  solver::Domain<D> domain_;
   solver::State<D, Real> state_;
   solver::Sweeps<D, Real> sweeps_;
   std::unique_ptr<solver::Pml<D, Real>> pml_;

@@ -6,7 +6,9 @@
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
 #include "long_form.hpp"
+#include "samples.hpp"
 #include "solver/simulation.hpp"
+#include "stack_scene.hpp"
 
 namespace slipwave::solver::solver_absorbing_test {
 namespace {
@@ -110,6 +112,39 @@ TEST(AbsorbingEdge, TakesUpWavesThatGrazeItWithAnErrorOfSecondOrderInItsCells) {
   EXPECT_LT(of_20[0], 0.005);
   EXPECT_LT(of_20[1], 0.015);
   for (const std::size_t n : {0, 1}) EXPECT_LT(of_40[n], of_20[n] / 2.5) << n;
+}
+
+// Rows slope there, where the layer lets waves grow that move against their phase along rows.
+// Proves (F10a).
+TEST(AbsorbingEdge, LetsAFloorRunIntoItAslant) {
+  StackScene stack{"floor", {{1500, 0, 1000}, {3000, 1700, 2200}}, {0}};
+  stack.dip_deg = 30, stack.source_b = -100, stack.spacing_m = 3, stack.order = 7;
+  for (const double b : {-40., 40.})
+    for (double a = 100; a <= 500; a += 100) stack.receivers.push_back({a, b});
+  stack.margin_m = 200, stack.deeper_m = 300;
+  const auto with_edges = [&](int cells) {
+    stack.zone_cells = cells;
+    return samples_of(shoot(stack.scene(), 1));
+  };
+  EXPECT_LT(relative_error(with_edges(20), with_edges(40)), 0.0015);
+}
+
+// Without any damping for slopes this grew beyond all bounds after 16 850 steps.
+// Proves (F10a).
+TEST(AbsorbingEdge, OfASteepFloorLetsNothingGrowInTheLongRun) {
+  StackScene stack{"steep floor", {{1500, 0, 1000}, {2200, 1200, 2000}}, {0}};
+  stack.dip_deg = 38, stack.source_b = -40, stack.spacing_m = 2, stack.order = 7, stack.zone_cells = 40;
+  for (const double b : {-20., 20.})
+    for (double a = 50; a <= 250; a += 50) stack.receivers.push_back({a, b});
+  stack.margin_m = 100, stack.deeper_m = 380, stack.duration_s = 5;
+  double peak = 0, late = 0;
+  for (const auto& trace : shoot(stack.scene(), 1).traces)
+    for (std::size_t n = 0; n < trace.samples.size(); ++n) {
+      const double value = std::abs(trace.samples[n]);
+      peak = std::max(peak, value);
+      if (4 * n >= 3 * trace.samples.size()) late = std::max(late, value);
+    }
+  EXPECT_LT(late, 1e-6 * peak);
 }
 
 }  // namespace

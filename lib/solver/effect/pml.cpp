@@ -25,6 +25,9 @@ constexpr double most_damped_a_sweep = 2;
 constexpr double alpha_share = 0.5;
 /// Damping of all fields in plates besides the complex stretching, as a share of d.
 constexpr double plate_damping_share = 0.05;
+/// What waves may grow by in a layer whose rows have a slope: rounding in single precision, 6e-8 of them,
+/// stays below a thousandth.
+constexpr double most_growth = 1e4;
 /// Ratio of impedances from which an interface counts as a reflector that may bound a plate.
 constexpr double reflector_ratio = 3;
 
@@ -94,9 +97,12 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
     const auto largest = [&](std::int64_t zone) {
       return largest_damping(inner_width(zone, settings), domain.grid.spacing_m, dt_s, vp_max);
     };
+    const std::array<double, 2> damping{largest(axis.low), largest(axis.high)};
     for (std::size_t k = 0; k < sweeps_.size(); ++k)
-      axis.factors.push_back(
-          make_factors(n, k, {largest(axis.low), largest(axis.high)}, {dt_s, slow_hz}, settings));
+      axis.factors.push_back(make_factors(n, k, damping, {dt_s, slow_hz}, settings));
+    for (const int side : {0, 1})
+      axis.damped[std::size_t(side)] = damping[std::size_t(side)] * dt_s / (power + 1) *
+                                       double(inner_width(side ? axis.high : axis.low, settings));
     std::int64_t rows = layout.rows();
     if (n > 0) rows *= axis.low + axis.high;
     for (int other = 1; other < D; ++other)
@@ -185,12 +191,25 @@ double Pml<D, Real>::most_damped(int axis) const {
   return most;
 }
 
-/// Marks cells along an edge beyond which rows keep a slope: in row coordinates all waves turn there
-/// (theory.md (F10a)).
+/// The damping of all fields, in terms of d, with which no wave grows by more than most_growth on its way out
+/// through a layer whose rows have a slope (theory.md (F10a)). `damped`: the integral of d/c over the layer,
+/// with c the speed of the slowest wave; infinite where that is not known, so that nothing grows.
+double damping_of_slope(double slope, double damped) {
+  constexpr int angles = 90;
+  const double allowed = std::log(most_growth) / damped;
+  double needed = 0;
+  for (int n = 1; n < angles; ++n) {
+    const double angle = n * std::numbers::pi / (2 * angles);
+    needed = std::max(needed, std::cos(angle) * (slope * std::sin(angle) - std::cos(angle) - allowed));
+  }
+  return needed;
+}
+
+/// Marks cells along an edge beyond which rows keep a slope: in row coordinates all waves turn there.
 template <int D, class Real>
 void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
   auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
-  const double most = most_damped(axis);
+  const double most = most_damped(axis), damped = axes_[std::size_t(axis)].damped[std::size_t(side)];
   const auto zone = (side ? domain.high_zone : domain.low_zone)[std::size_t(axis)];
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
@@ -200,8 +219,9 @@ void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
     at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - zone : zone - 1;
     auto next = at;
     ++next[std::size_t(axis)];
-    const double slope = corner_depth(domain, next) - corner_depth(domain, at);
-    const double turning = (std::sqrt(1 + slope * slope) - 1) / 2;
+    const double slope = std::abs(corner_depth(domain, next) - corner_depth(domain, at));
+    const double courant = domain.courant(at, axis, domain.impedance(wave_s)(at) > 0 ? 1 : 0);
+    const double turning = damping_of_slope(slope, damped / courant);
     auto& plate = plates[std::size_t(along_edge(axis, at))];
     plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));
   }

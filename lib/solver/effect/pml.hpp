@@ -72,6 +72,8 @@ class Pml : public Effect<D, Real> {
     Buffer<Real> memory;
     /// Low and high zone, along the edge: 1 in plates, more where waves turn back, else 0.
     std::array<std::vector<Real>, 2> plates;
+    /// The integrals of d over both zones in cells by steps: over a Courant number, of d/c.
+    std::array<double, 2> damped{};
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
     bool holds(std::int64_t cell) const { return cell < low || cell >= cells - high; }
   };

@@ -87,9 +87,9 @@ constexpr double least_room = 1.02, room = 1.5, room_of_void = 10;
 template <int D>
 class SideRowsFinder {
  public:
-  SideRowsFinder(Domain<D>& domain, const Medium<D>& medium)
+  SideRowsFinder(Domain<D>& domain, const Medium<D>& medium, double longer_steps)
       : domain_(domain),
-        fastest_(fastest_across_cells(medium, domain.subdomain)),
+        fastest_(longer_steps * fastest_across_cells(medium, domain.subdomain)),
         speeds_(domain.subdomain.is_whole() ? side_speeds(medium, domain.subdomain)
                                             : domain.subdomain.side_speeds) {}
   void find() {
@@ -142,7 +142,7 @@ class SideRowsFinder {
   }
 
   Domain<D>& domain_;
-  double fastest_;
+  double fastest_;                                            // that the time step allows in regular cells
   std::array<std::array<std::vector<double>, 2>, 2> speeds_;  // of the whole model
 };
 
@@ -516,7 +516,7 @@ double corner_depth(const Domain<D>& domain, Index<D> corner) {
 
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
-                      const Subdomain& part, int order) {
+                      const Subdomain& part, int order, double longer_steps) {
   constexpr int z = D - 1;
   Domain<D> domain;
   domain.order = order;
@@ -541,7 +541,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   }
   // Its rows are those of the model, not of a grid of that size.
   domain.grid.rows = nullptr;
-  if (domain.model_grid.rows) SideRowsFinder<D>(domain, medium).find();
+  if (domain.model_grid.rows) SideRowsFinder<D>(domain, medium, longer_steps).find();
   find_curvilinear_rows(domain);
   domain.own = {0, domain.grid.shape[z]};
   const auto held = domain.model_grid.first[z];

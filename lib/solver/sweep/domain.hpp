@@ -195,10 +195,11 @@ template <int D>
 double corner_depth(const Domain<D>& domain, Index<D> corner);
 
 /// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
-/// model; `order` is that of the reconstruction, or a higher one.
+/// model; `order` is that of the reconstruction, or a higher one; steps of so many times the time step would
+/// be stable in the model, which leaves rows beyond its sides room to become lower.
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
-                      const Subdomain& part = {}, int order = 7);
+                      const Subdomain& part = {}, int order = 7, double longer_steps = 1);
 
 /// Writes b and the impedances of every cell and of the ghost cells beyond the edges into the state.
 template <int D, class Real>
