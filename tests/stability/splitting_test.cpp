@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Fourth order in time runs back in time in some of its sweeps, and its steps may be twice as long as those
 // of second order: neither may make anything grow.
+#include <array>
 #include <tuple>
 
 #include "lab.hpp"
@@ -43,7 +44,7 @@ TEST_P(FourthOrderInTime, NeverAddsEnergy) {
     SCOPED_TRACE("order " + std::to_string(order) + " cfl " + std::to_string(cfl));
     Lab<double> lab(setup(cells(), order, cfl));
     lab.expect_no_growth(300, rounding<double>());
-    if (long_form()) lab.expect_fall_in_the_long_run(3000, rounding<double>());
+    if (long_form() && cfl == 2) lab.expect_fall_in_the_long_run(3000, rounding<double>());
   }
 }
 
@@ -92,12 +93,13 @@ TEST(Energy, AtFourthOrderInTimeAndTheLongestStepFallsInTheLongRun) {
   if (!long_form())
     return expect_to_fall_in_the_long_run<double>("RandomDensitiesBelowTheInterfaceRatio", 11);
   std::size_t turn = 0;
-  for (const int order : {11, 9, 7, 5})
-    for (const auto& medium : medium_names())
-      if (turn++ % 2)
-        expect_to_fall_in_the_long_run<double>(medium, order);
-      else
-        expect_to_fall_in_the_long_run<float>(medium, order);
+  for (const auto& medium : medium_names()) {
+    const int order = std::array{11, 9, 7, 5}[turn % 4];
+    if (turn++ / 4 % 2)
+      expect_to_fall_in_the_long_run<double>(medium, order);
+    else
+      expect_to_fall_in_the_long_run<float>(medium, order);
+  }
 }
 
 TEST(Energy, NeverRisesUnderACrustOfOneCellAtSmallSteps) {
