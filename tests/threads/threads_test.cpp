@@ -94,6 +94,7 @@ TEST(Threads, ShareAShotOfFourthOrderInDoublePrecision) {
   scene.numerics.double_precision = true;
   scene.numerics.cfl = 0.7;
   scene.numerics.tiling = {1, 16, true};
+  scene.recording.duration_s = 0.012;
   expect_the_same_on_threads(scene);
 }
 
