@@ -123,6 +123,17 @@ void BandedShot<D, Real>::fill_rows(std::size_t face) {
   }
 }
 
+/// Gives the wide grid the states of a face. Its columns that take some may lie farther from what moves than
+/// sweeps read: the filter of (B1) reaches farther.
+template <int D, class Real>
+void BandedShot<D, Real>::give_states(std::size_t face) {
+  faces_[face].give_states();
+  const bool narrow_above = faces_[face].is_narrow(parts_[face]->state());
+  auto& wide = *parts_[narrow_above ? face + 1 : face];
+  const auto row = narrow_above ? wide.domain().own.first : wide.domain().own.last;
+  wide.executor().rows_changed({row - 1, row + 1});
+}
+
 /// Sweeps along the last axis in all bands, each with what follows it before the next, as parallel_tiles()
 /// makes tiles: the pieces of the grid that is swept first, then those of the next. Where that is from top to
 /// bottom, a face lies between two pieces that follow each other, so the next sweep may begin at the top
@@ -163,9 +174,8 @@ std::int64_t BandedShot<D, Real>::run_from(std::int64_t first, std::int64_t last
       if (narrow_above ? band == face && ends : band == face + 1 && of_band == 0) fill_rows(face);
     }
     parts_[band]->executor().run_from(time, number, of_band, worker);
-    // The row that takes these lies beside rows filled above, whose fields spread to it anyway.
-    for (auto& face : faces_)
-      if (ends && face.is_narrow(parts_[band]->state())) face.give_states();
+    for (std::size_t face = 0; face < faces_.size(); ++face)
+      if (ends && faces_[face].is_narrow(parts_[band]->state())) give_states(face);
   };
   parallel_tiles(std::int64_t(across.size()), std::int64_t(pieces.size()), at_once, sweep);
   return made;

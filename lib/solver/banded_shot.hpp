@@ -43,6 +43,7 @@ class BandedShot {
   std::int64_t sum_of_parts(Of&& of) const;
   std::int64_t run_from(std::int64_t first, std::int64_t last, const std::function<bool()>& pause);
   void fill_rows(std::size_t face);
+  void give_states(std::size_t face);
   bool wider_downwards() const { return std::is_sorted(narrow_first_.begin(), narrow_first_.end()); }
   void check_stability() const;
   Field<D> whole_field(const FieldKey& key) const;

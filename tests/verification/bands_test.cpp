@@ -379,6 +379,9 @@ TEST(Bands, GiveTheSameBitsPlainlyAndInTiles) {
   stack = soft_ground();
   stack.rocks = {hard, soft}, stack.spacing_m = 1;
   expect_same_bits("hard on soft", stack.scene(), {{0, 2}, {30, 1}}, 0.03);
+  stack = soft_ground();
+  stack.source_b = 31;
+  expect_same_bits("a source below the face", stack.scene(), bands, 0.05);
   expect_same_bits("a plane wave", shaken_ground<2>("plane-s:160", {48, 96}, 1), {{0, 1}, {30, 3}}, 0.05);
 }
 
