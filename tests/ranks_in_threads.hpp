@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 #include <tuple>
+#include <utility>
 
 #include "parallel/ranks.hpp"
 
@@ -48,7 +49,7 @@ class RanksInThreads {
     std::mutex mutex;
     std::map<std::tuple<int, int, int>, std::deque<Bytes>> letters;  // from, to, tag
     std::vector<Bytes> handed_in;
-    std::map<int, std::shared_ptr<Post>> groups;
+    std::map<std::pair<int, int>, std::shared_ptr<Post>> groups;  // number of the split, colour
     std::barrier<> all_here;
   };
 
@@ -107,14 +108,14 @@ class RanksInThreads {
         before += other == colour && n < number_;
       }
       const std::lock_guard lock(post_->mutex);
-      auto& group = post_->groups[colour];
+      auto& group = post_->groups[{splits_++, colour}];
       if (!group) group = std::make_shared<Post>(alike);
       return std::make_unique<One>(group, before);
     }
 
    private:
     std::shared_ptr<Post> post_;
-    int number_;
+    int number_, splits_ = 0;
   };
 };
 

@@ -354,7 +354,6 @@ Model<D> model_of_rows(const InCells<D>& own, const std::vector<RowOf<D>>& rows,
 template <int D>
 Subdomain of_whole(const std::vector<InCells<D>>& all) {
   Subdomain whole;
-  whole.other_cells = true;
   for (const auto& each : all) {
     const auto& medium = each.scene.model.medium;
     whole.slips |= each.scene.slips();
@@ -506,7 +505,7 @@ std::vector<Scene<D>> scenes_of_bands(const Scene<D>& scene) {
     band.subdomain.rows = std::int64_t(rows.size());
     band.subdomain.first = n > 0 ? beside : 0;
     band.subdomain.last = band.subdomain.first + all[n].rows();
-    band.subdomain.exchanged = beside;
+    band.subdomain.other_cells = {n > 0 ? beside : 0, n + 1 < all.size() ? beside : 0};
     band.subdomain.own_heights = {n > 0 && in_one_rock(all[n - 1], all[n]),
                                   n + 1 < all.size() && in_one_rock(all[n], all[n + 1])};
     band.subdomain.side_speeds = side_speeds(band.model.medium, Subdomain{});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,16 +13,17 @@
 namespace slipwave {
 
 /// Rows of the model (in 3-D planes), counted along the last axis, that one of several processes owns.
-/// Its model holds some more of them on both sides, where there are any.
+/// Its model holds some more of them on both sides, where there are any. In bands of cells
+/// (Numerics::bands) these are rows of one band and of its model.
 struct Subdomain {
-  std::int64_t rows = 0;             // of the whole model; 0: there is one process
+  std::int64_t rows = 0;             // of the whole model; 0: there is one process, and no bands
   std::int64_t first = 0, last = 0;  // first <= row < last
   /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
-  /// Whether neighbours are bands of other cells: nothing is read or added across the faces to them but by
-  /// sweeps.
-  bool other_cells = false;
-  /// Whether rows beyond such a face, before and behind its rows, are as high as its own.
+  /// How many rows, at the begin of the whole model and at its end, are those of bands of other cells:
+  /// nothing is read or added across the faces to them but by sweeps.
+  std::array<std::int64_t, 2> other_cells{};
+  /// Whether rows beyond such a face, before and behind those of the band, are as high as its own.
   std::array<bool, 2> own_heights{};
   bool slips = false;        // whether anything slips in any part
   bool shear = false;        // whether any part has shear stress: solid cells or curvilinear rows
@@ -40,9 +42,20 @@ struct Subdomain {
   double fastest = 0, fastest_across_cells = 0;
 
   bool is_whole() const { return rows == 0; }
-  /// Whether rows before the first or behind the last are with other processes. Its model may hold all of
-  /// them: where a neighbour owns no more rows than are refreshed.
+  bool in_bands() const { return other_cells[0] > 0 || other_cells[1] > 0; }
+  /// Whether it owns no row of the band.
+  bool is_empty() const { return !is_whole() && first == last; }
+  /// Whether rows before the first or behind the last are with other processes, or of other cells. Its model
+  /// may hold all of them: where a neighbour owns no more rows than are refreshed.
   bool cut(int side) const { return !is_whole() && (side ? last < rows : first > 0); }
+  /// The row at which the band begins, or the one at which the next band does.
+  std::int64_t face(int side) const { return side ? rows - other_cells[1] : other_cells[0]; }
+  /// Whether the rows before the first or behind the last are of other cells.
+  bool ends_at_band(int side) const {
+    return other_cells[std::size_t(side)] > 0 && (side ? last : first) == face(side);
+  }
+  /// Whether they are with another process.
+  bool continues(int side) const { return cut(side) && !ends_at_band(side); }
   /// Whether it owns a row of the model it holds.
   template <int D>
   bool owns(const Grid<D>& held, std::int64_t row) const {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <string>
 
 #include "acquisition/interpolation.hpp"
 #include "base/instantiate.hpp"
@@ -43,6 +45,140 @@ Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held, std::
   const auto first = field.begin() + row * a_row;
   std::copy(first, first + held.size(), part.begin());
   return part;
+}
+
+/// Rows that processes share, one below the other, and what decides where the rows of each end.
+struct SharedRows {
+  std::vector<std::int64_t> cells_before;  // computed before each row and before the end, zones included
+  std::int64_t cells = 0;                  // all of them
+  std::int64_t spread = 0;                 // of a tile
+  std::vector<std::int64_t> faces{};       // rows at which bands begin, but the first
+  std::vector<std::int64_t> points{};      // rows of receivers
+
+  std::int64_t count() const { return std::int64_t(cells_before.size()) - 1; }
+  /// Rows of a part, at least: as many as neighbours read if a receiver is near. They are no fewer than the
+  /// bands beside a face read of each other.
+  std::int64_t least() const { return spread + beside_points; }
+  /// Whether a part may end before a row: both sides of faces between bands lie in one part.
+  bool may_end(std::int64_t row) const {
+    return std::none_of(faces.begin(), faces.end(),
+                        [&](std::int64_t face) { return std::abs(row - face) < least(); });
+  }
+  /// Whether no point reads across the boundary before this row; `points` ascend.
+  bool alone(std::int64_t row) const {
+    const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);
+    return near == points.end() || *near >= row + beside_points;
+  }
+  /// Parts that they make at most.
+  int most_parts() const {
+    int parts = 1;
+    for (std::int64_t end = least(); end + least() <= count(); ++end)
+      if (may_end(end)) ++parts, end += least() - 1;
+    return parts;
+  }
+};
+
+/// The rows before which so many parts end, at most most_parts(): each has about as many cells as the others.
+std::vector<std::int64_t> ends_of_parts(const SharedRows& shared, int count) {
+  // The last ones that leave enough rows to the parts below.
+  std::vector<std::int64_t> latest(std::size_t(count), shared.count());
+  for (auto n = latest.size() - 1; n-- > 0;) {
+    latest[n] = latest[n + 1] - shared.least();
+    while (!shared.may_end(latest[n])) --latest[n];
+  }
+  std::vector<std::int64_t> ends;
+  for (std::size_t n = 0; n + 1 < latest.size(); ++n) {
+    const auto last = latest[n], first = (ends.empty() ? 0 : ends.back()) + shared.least();
+    const auto fits = [&](std::int64_t row) { return row >= first && row <= last && shared.may_end(row); };
+    const auto before = std::int64_t(n + 1) * shared.cells / count;
+    const auto& cells = shared.cells_before;
+    const auto share = std::lower_bound(cells.begin(), cells.end(), before) - cells.begin();
+    const auto wanted = std::clamp<std::int64_t>(share, first, last);
+    auto end = last;
+    for (auto row = first; row < last; ++row)
+      if (fits(row) && std::abs(row - wanted) < std::abs(end - wanted)) end = row;
+    for (std::int64_t way = 0, even = end; way <= beside_points && !shared.alone(end); ++way)
+      for (const auto moved : {even - way, even + way})
+        if (fits(moved) && shared.alone(moved) && !shared.alone(end)) end = moved;
+    ends.push_back(end);
+  }
+  ends.push_back(shared.count());
+  return ends;
+}
+
+/// The rows of one of so many processes.
+struct Part {
+  std::int64_t first, last, exchanged;
+};
+Part part_of(const SharedRows& shared, int number, int count) {
+  const auto ends = ends_of_parts(shared, count);
+  const bool alone =
+      std::all_of(ends.begin(), ends.end() - 1, [&](std::int64_t end) { return shared.alone(end); });
+  return {number > 0 ? ends[std::size_t(number) - 1] : 0, ends[std::size_t(number)],
+          alone ? shared.spread : shared.least()};
+}
+
+[[noreturn]] void refuse(int count, const std::string& wanted) {
+  throw Error("found " + std::to_string(count) + " processes a shot " + wanted, ErrorKind::usage);
+}
+
+template <int D>
+bool any_plane_wave(const Scene<D>& scene) {
+  const auto& sources = scene.survey.sources;
+  return std::any_of(sources.begin(), sources.end(), [](const Source<D>& source) {
+    return std::holds_alternative<PlaneWave<D>>(source.mechanism);
+  });
+}
+
+template <int D>
+void refuse_plane_waves(const Scene<D>& scene, int count) {
+  if (any_plane_wave(scene))
+    throw Error("found a plane wave and " + std::to_string(count) +
+                    " processes a shot, expected a point source or --ranks-per-shot 1",
+                ErrorKind::usage);
+}
+
+/// The rows in which receivers read the fields of a scene, on the whole grid of its model.
+template <int D>
+std::vector<std::int64_t> rows_of_receivers(const Scene<D>& scene, const Grid<D>& whole) {
+  std::vector<std::int64_t> rows;
+  const auto add = [&](const Point<D>& point, std::size_t, std::size_t) {
+    rows.push_back(cell_of(whole, point)[D - 1]);
+  };
+  each_receiver<D>(scene.survey, add);
+  if (scene.recording.fibre) each_gauge_point<D>(scene, add);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+/// Rows of all bands, one below the other.
+template <int D>
+SharedRows rows_of_bands(const Scene<D>& scene, const std::vector<Scene<D>>& bands) {
+  SharedRows shared;
+  shared.spread = spread_of_a_tile(bands.front());
+  const auto cells_of_zone = [&](const Scene<D>& band, int axis, int side) {
+    return scene.edges[axis][side] == EdgeLaw::absorbing ? std::int64_t(band.numerics.zone_cells) : 0;
+  };
+  for (const auto& band : bands) {
+    const auto& part = band.subdomain;
+    std::int64_t a_row = 1;
+    for (int axis = 0; axis < D - 1; ++axis)
+      a_row *= band.model.grid().shape[axis] + cells_of_zone(band, axis, 0) + cells_of_zone(band, axis, 1);
+    if (&band == &bands.front())
+      shared.cells += cells_of_zone(band, D - 1, 0) * a_row;
+    else
+      shared.faces.push_back(std::int64_t(shared.cells_before.size()));
+    const auto above = std::int64_t(shared.cells_before.size());
+    for (const auto row : rows_of_receivers(scene, band.model.grid()))
+      if (row >= part.first && row < part.last) shared.points.push_back(above + row - part.first);
+    for (auto row = part.first; row < part.last; ++row, shared.cells += a_row)
+      shared.cells_before.push_back(shared.cells);
+    if (&band == &bands.back()) {
+      shared.cells_before.push_back(shared.cells);
+      shared.cells += cells_of_zone(band, D - 1, 1) * a_row;
+    }
+  }
+  return shared;
 }
 
 }  // namespace
@@ -160,10 +296,22 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene) {
     if (set.on_faces) surface_reach[0] = free_surface_reach;
   if (scene.subdomain.corrects_inside || corrects_inside(scene.model.medium))
     surface_reach.fill(free_surface_reach);
-  const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
-                                             reach_of(scene.numerics.order), surface_reach);
+  const auto spread_of = [&](const std::vector<SweepFraction>& sweeps) {
+    return spread_of_a_step<D>(sweeps, D - 1, reach_of(scene.numerics.order), surface_reach);
+  };
+  const auto sweeps = splitting(D, scene.numerics.time_order);
   // The first tile of all has one more sweep along x.
-  return steps_of_a_tile(scene.numerics.tiling) * of_a_step + surface_reach[0];
+  if (!scene.subdomain.in_bands())
+    return steps_of_a_tile(scene.numerics.tiling) * spread_of(sweeps) + surface_reach[0];
+  std::int64_t most = 0;
+  std::vector<SweepFraction> tile;
+  for (const int step : {0, 1})
+    for (const auto& sweep : sweeps) {
+      if (sweep.axis == D - 1) tile.clear();
+      if (step > 0 || sweep.axis == D - 1 || !tile.empty()) tile.push_back(sweep);
+      most = std::max(most, spread_of(tile));
+    }
+  return most;
 }
 
 template <int D>
@@ -171,65 +319,71 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
   constexpr int z = D - 1;
   const std::int64_t rows = whole.shape[z];
   if (count == 1) return {};
+  refuse_plane_waves(scene, count);
   std::int64_t zone = 0;
-  for (const auto& source : scene.survey.sources) {
-    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      throw Error("found a plane wave and " + std::to_string(count) +
-                      " processes a shot, expected a point source or --ranks-per-shot 1",
-                  ErrorKind::usage);
+  for (const auto& source : scene.survey.sources)
     zone = std::max<std::int64_t>(zone, zone_cells(scene, source));
-  }
   const auto zone_at = [&](int side) { return scene.edges[z][side] == EdgeLaw::absorbing ? zone : 0; };
-  std::vector<std::int64_t> points;  // rows of receivers
-  each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t, std::size_t) {
-    points.push_back(cell_of(whole, receiver)[z]);
-  });
-  if (scene.recording.fibre)
-    each_gauge_point<D>(scene, [&](const Point<D>& point, std::size_t, std::size_t) {
-      points.push_back(cell_of(whole, point)[z]);
-    });
-  std::sort(points.begin(), points.end());
-  const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row
-    const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);
-    return near == points.end() || *near >= row + beside_points;
-  };
-  const std::int64_t spread = spread_of_a_tile(scene), least = spread + beside_points;
-  if (rows < count * least)
-    throw Error("found " + std::to_string(count) + " processes a shot for a model of " +
-                    std::to_string(rows) + " rows, expected at most " +
-                    std::to_string(std::max<std::int64_t>(1, rows / least)) + ": each takes " +
-                    std::to_string(least) + " or more",
-                ErrorKind::usage);
+  SharedRows shared;
+  shared.cells_before.resize(std::size_t(rows) + 1);
+  std::iota(shared.cells_before.begin(), shared.cells_before.end(), zone_at(0));
+  shared.cells = zone_at(0) + rows + zone_at(1);
+  shared.spread = spread_of_a_tile(scene);
+  shared.points = rows_of_receivers(scene, whole);
+  if (const int most = shared.most_parts(); count > most)
+    refuse(count, "for a model of " + std::to_string(rows) + " rows, expected at most " +
+                      std::to_string(most) + ": each takes " + std::to_string(shared.least()) + " or more");
+  const auto [first, last, exchanged] = part_of(shared, number, count);
   Subdomain part;
-  part.rows = rows;
-  part.exchanged = spread;
-  const std::int64_t all = zone_at(0) + rows + zone_at(1);
-  std::int64_t before = 0;
-  for (int n = 1; n <= count; ++n) {
-    const std::int64_t most = rows - (count - n) * least;
-    std::int64_t boundary = rows;
-    if (n < count) {
-      const auto even = std::clamp(n * all / count - zone_at(0), before + least, most);
-      boundary = even;
-      for (std::int64_t way = 0; way <= beside_points && !alone(boundary); ++way)
-        for (const auto moved : {even - way, even + way})
-          if (moved >= before + least && moved <= most && alone(moved) && !alone(boundary)) boundary = moved;
-      if (!alone(boundary)) part.exchanged = least;
-    }
-    if (n == number + 1) {
-      part.first = before;
-      part.last = boundary;
-    }
-    before = boundary;
-  }
+  part.rows = rows, part.first = first, part.last = last, part.exchanged = exchanged;
   return part;
+}
+
+template <int D>
+int most_processes(const Scene<D>& scene, const std::vector<Scene<D>>& bands) {
+  return any_plane_wave(scene) ? 1 : rows_of_bands(scene, bands).most_parts();
+}
+
+template <int D>
+std::vector<Subdomain> subdomains_for(const Scene<D>& scene, const std::vector<Scene<D>>& bands, int number,
+                                      int count) {
+  std::vector<Subdomain> parts;
+  for (const auto& band : bands) parts.push_back(band.subdomain);
+  if (count == 1) return parts;
+  refuse_plane_waves(scene, count);
+  const auto shared = rows_of_bands(scene, bands);
+  if (const int most = shared.most_parts(); count > most) {
+    std::string rows;
+    for (const auto& of : parts)
+      rows += (rows.empty()           ? ""
+               : &of == &parts.back() ? " and "
+                                      : ", ") +
+              std::to_string(of.last - of.first);
+    refuse(count, "for bands of " + rows + " rows, expected at most " + std::to_string(most) +
+                      ": each takes " + std::to_string(shared.least()) + " or more of a band that it shares");
+  }
+  const auto [first, last, exchanged] = part_of(shared, number, count);
+  std::int64_t above = 0;  // rows of the bands before
+  for (std::size_t n = 0; n < bands.size(); ++n) {
+    auto& part = parts[n];
+    const auto of_band = part.first;
+    const auto rows = part.last - part.first;
+    part.first = of_band + std::clamp<std::int64_t>(first - above, 0, rows);
+    part.last = of_band + std::clamp<std::int64_t>(last - above, 0, rows);
+    part.exchanged = exchanged;
+    part.askew = askew_sets(bands[n]);
+    above += rows;
+  }
+  return parts;
 }
 
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
   // The material round a source decides what it is spread over.
   const auto beside = std::max(
       {part.exchanged + beside_refreshed, beside_points, std::int64_t(widest_spread(Moment::lasting))});
-  return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
+  // Of other bands it holds all that its own does.
+  return {part.ends_at_band(0) ? 0 : std::max<std::int64_t>(0, part.first - beside),
+          part.ends_at_band(1) ? part.rows : std::min(part.rows, part.last + beside)};
 }
 
 template <int D>
@@ -251,6 +405,7 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
   if (part.is_whole()) return whole;
   const auto [first, last] = rows_held(part);
   auto& model = whole.model;
+  if (first == 0 && last == model.grid().shape[D - 1]) return whole;
   model.medium = rows_of(model.medium, first, last);
   const auto held = model.grid();
   model.fracture = rows_of(model.fracture, held, first);
@@ -292,6 +447,8 @@ SLIPWAVE_INSTANTIATE_D(FUNCTION, side_speeds);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_of_a_step);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, spread_of_a_tile);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, subdomain_for);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, subdomains_for);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, most_processes);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, cut_to);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, join);
 

@@ -68,7 +68,8 @@ template <int D>
 std::int64_t spread_of_a_step(const std::vector<SweepFraction>& splitting, int axis, std::int64_t reach,
                               const std::array<std::int64_t, std::size_t(D)>& surface_reach);
 
-/// Rows (in 3-D planes) by which a stale cell spreads in a time tile at most.
+/// Rows (in 3-D planes) by which a stale cell spreads at most before rows of other processes are refreshed
+/// again: in a time tile, which in bands is a sweep along the last axis and what follows it before the next.
 template <int D>
 std::int64_t spread_of_a_tile(const Scene<D>& scene);
 
@@ -77,6 +78,17 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene);
 /// rows for so many processes, or a source that cannot be distributed.
 template <int D>
 Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count);
+
+/// Returns the rows of each of scenes_of_bands() that a process owns: all of them share the rows of all
+/// bands, one band below the other. Both sides of a face between bands are with one process: each has all of
+/// a band, as many rows of it as bands read of each other or more, or none (Subdomain::is_empty()).
+template <int D>
+std::vector<Subdomain> subdomains_for(const Scene<D>& scene, const std::vector<Scene<D>>& bands, int number,
+                                      int count);
+
+/// The largest `count` that subdomains_for() takes.
+template <int D>
+int most_processes(const Scene<D>& scene, const std::vector<Scene<D>>& bands);
 
 /// The rows of the whole model that the process must hold: first <= row < second.
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part);

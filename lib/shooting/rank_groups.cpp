@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/rank_groups.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/archive.hpp"
@@ -52,7 +53,7 @@ void serialize_outcome(Archive& archive, RankGroups::Outcome& outcome) {
   }
 }
 
-int ranks_a_shot(int all, int wanted, std::size_t shots, bool one_shot_at_a_time) {
+int ranks_a_shot(int all, int wanted, std::size_t shots, bool one_shot_at_a_time, int most) {
   if (wanted < 0 || (wanted > 0 && all % wanted != 0))
     throw CollectiveError("found --ranks-per-shot " + std::to_string(wanted) + " and " + std::to_string(all) +
                               " processes, expected a number that divides them",
@@ -65,15 +66,20 @@ int ranks_a_shot(int all, int wanted, std::size_t shots, bool one_shot_at_a_time
     return all;
   }
   if (wanted > 0) return wanted;
-  for (int few = 1;; ++few)
-    if (all % few == 0 && std::size_t(all / few) <= shots) return few;
+  int found = 1;
+  for (int few = 1; few <= (most > 0 ? std::min(most, all) : all); ++few) {
+    if (all % few != 0) continue;
+    found = few;
+    if (std::size_t(all / few) <= shots) break;
+  }
+  return found;
 }
 
 }  // namespace
 
-RankGroups::RankGroups(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time)
+RankGroups::RankGroups(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time, int most)
     : all_(all) {
-  const int in_group = ranks_a_shot(all.count(), ranks_per_shot, shots, one_shot_at_a_time);
+  const int in_group = ranks_a_shot(all.count(), ranks_per_shot, shots, one_shot_at_a_time, most);
   groups_ = std::size_t(all.count() / in_group);
   number_ = std::size_t(all.number() / in_group);
   auto group = all.split(int(number_));

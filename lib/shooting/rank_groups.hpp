@@ -13,9 +13,10 @@ namespace slipwave {
 /// first of all gets what was recorded and writes it.
 class RankGroups {
  public:
-  /// Collective. `ranks_per_shot` of them form a group; 0: as few as leave none of them without work, all
-  /// where `one_shot_at_a_time`. Throws a usage Error where they do not divide all evenly.
-  RankGroups(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time);
+  /// Collective. `ranks_per_shot` of them form a group; 0: as few as leave none of them without work, but at
+  /// `most` so many where that is above 0; all where `one_shot_at_a_time`. Throws a usage Error where they do
+  /// not divide all evenly.
+  RankGroups(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time, int most = 0);
 
   /// Whether this is the one that writes.
   bool leads() const { return all_.number() == 0; }
@@ -33,8 +34,9 @@ class RankGroups {
     std::string what;
   };
   /// Collective: each group shoots one of these shots, at most as many as there are groups, each process with
-  /// its subdomain of the scene. Their outcomes in that order, on the process that leads. Where a shot became
-  /// unstable, it throws the Unstable of the first such on that process and EndedElsewhere on the others.
+  /// what slipwave::shoot() wants of the scene. Their outcomes in that order, on the process that leads.
+  /// Where a shot became unstable, it throws the Unstable of the first such on that process and
+  /// EndedElsewhere on the others.
   template <int D>
   std::vector<Outcome> shoot(const Scene<D>& scene, std::span<const std::size_t> shots,
                              const Progress& progress, const SnapshotSink<D>& snapshots) const;

@@ -13,6 +13,7 @@
 #include "planning/plan.hpp"
 #include "scene/bands.hpp"
 #include "scene/magnitude.hpp"
+#include "scene/subdomains.hpp"
 #include "scene/timing.hpp"
 #include "shooting/measured_survey.hpp"
 #include "shooting/output_names.hpp"
@@ -89,9 +90,6 @@ void check_on_ranks(const ShootingOptions& options, int count) {
                   ErrorKind::usage);
   };
   refuse(!options.output.checkpoint.empty(), "--checkpoint", "use one");
-  refuse(in_bands(options) && !options.output.snapshots.empty(), "--bands with --snapshots", "use one");
-  refuse(in_bands(options) && options.output.ranks_per_shot > 1, "more than one process a shot with --bands",
-         "use --ranks-per-shot 1");
   refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
   refuse(measures(options), "--error, --measure or --error-gather",
          "use one process, then give what it chooses");
@@ -166,22 +164,55 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   messages.close([&] { return result_in_words(scene); });
 }
 
+/// Collective: `most` processes a shot at most, where that is above 0.
+template <int D>
+RankGroups groups_for(const Scene<D>& scene, const ShootingOptions& options, Ranks& ranks, int most = 0) {
+  return {ranks, options.output.ranks_per_shot, scene.survey.sources.size(),
+          !options.output.snapshots.empty(), most};
+}
+
+/// Collective: chooses bands and the groups that shoot in them, for which the rows of bands must be known:
+/// all processes have the whole model.
+template <int D>
+RankGroups groups_in_bands(Scene<D>& scene, const ShootingOptions& options, const Messages& messages,
+                           Ranks& ranks) {
+  collective_try(&ranks, [&] { say_or_choose_bands(scene, options, messages); });
+  std::vector<Scene<D>> bands;
+  int most = 0;
+  collective_try(&ranks, [&] {
+    if (scene.numerics.bands.empty()) return;
+    bands = scenes_of_bands(scene);
+    most = most_processes(scene, bands);
+  });
+  auto groups = groups_for(scene, options, ranks, most);
+  auto* const group = groups.group();
+  collective_try(&ranks, [&] {
+    if (!bands.empty()) return void(subdomains_for(scene, bands, 0, group ? group->count() : 1));
+    if (group)
+      scene =
+          cut_to(std::move(scene), subdomain_for(scene, scene.model.grid(), group->number(), group->count()));
+  });
+  if (bands.empty() && group) join(scene, *group);
+  return groups;
+}
+
 template <int D>
 void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& provenance,
                           const Messages& messages, NetcdfFile file, Ranks& ranks) {
   Scene<D> scene;
   collective_try(&ranks, [&] { scene = make_scene<D>(options); });
-  // A shot in bands is one process's; others compute other shots.
-  const RankGroups groups(ranks, in_bands(options) ? 1 : options.output.ranks_per_shot,
-                          scene.survey.sources.size(), !options.output.snapshots.empty());
-  const auto of_model = options.scene.read_part_into(scene, file, ranks, groups.group());
+  std::optional<RankGroups> formed;
+  if (!in_bands(options)) formed.emplace(groups_for(scene, options, ranks));
+  const auto of_model = options.scene.read_part_into(scene, file, ranks, formed ? formed->group() : nullptr);
   file.close();
+  if (!formed) formed.emplace(groups_in_bands(scene, options, messages, ranks));
+  const auto& groups = *formed;
   release_zeros(scene.model);
   release_freed_memory();
-  if (in_bands(options)) collective_try(&ranks, [&] { say_or_choose_bands(scene, options, messages); });
   const OutputOptions output = labelled(options.output, scene.survey);
   collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
-  collective_try(&ranks, [&] { check_magnitudes(scene, groups.group()); });
+  collective_try(&ranks,
+                 [&] { check_magnitudes(scene, scene.subdomain.is_whole() ? nullptr : groups.group()); });
   if (groups.leads()) {
     warn_of_projection(scene.survey, messages);
     for (const auto& sentence : timing_warnings(scene)) messages.warn(sentence);

@@ -11,7 +11,7 @@
 #include "parallel/threads.hpp"
 #include "scene/bands.hpp"
 #include "scene/empty_gather.hpp"
-#include "scene/surroundings.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/schedule/tiled.hpp"
 
 namespace slipwave::solver {
@@ -33,8 +33,16 @@ std::int64_t served_by_tiles(const std::vector<Scene<D>>& bands) {
 }  // namespace
 
 template <int D, class Real>
-BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink)
-    : scene_(&scene), shot_(shot), sink_(sink), scenes_(scenes_of_bands(scene)) {
+BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink,
+                                Ranks* ranks)
+    : scene_(&scene),
+      shot_(shot),
+      sink_(sink),
+      ranks_(ranks),
+      scenes_(scenes_of_bands(scene)),
+      check_(ranks) {
+  const auto all = in_all_bands(scene, scenes_, shot);
+  take_share();
   narrow_first_.resize(scenes_.size());
   std::iota(narrow_first_.begin(), narrow_first_.end(), std::size_t(0));
   std::stable_sort(narrow_first_.begin(), narrow_first_.end(), [this](std::size_t one, std::size_t other) {
@@ -44,9 +52,9 @@ BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const S
   for (auto& band : scenes_) band.numerics.tiling.plain |= parallel_threads() > threads_for_tiles * served;
   // The bands record snapshots, which are put together here.
   const auto nowhere = sink ? SnapshotSink<D>([](double, const FieldReader<D>&) {}) : SnapshotSink<D>();
-  const auto all = in_all_bands(scene, scenes_, shot);
-  for (const auto& band : scenes_)
-    parts_.push_back(std::make_unique<ShotSimulation<D, Real>>(band, shot, nowhere, nullptr, &all));
+  for (std::size_t n = 0; n < scenes_.size(); ++n)
+    parts_.push_back(
+        std::make_unique<ShotSimulation<D, Real>>(scenes_[n], shot, nowhere, groups_[n].get(), &all));
   std::vector<std::array<SharedFaces<Real>*, 2>> shared;
   for (auto& part : parts_) shared.push_back(part->sweeps().share_faces(part->domain()));
   for (std::size_t n = 1; n < parts_.size(); ++n)
@@ -54,6 +62,24 @@ BandedShot<D, Real>::BandedShot(const Scene<D>& scene, std::size_t shot, const S
                         typename BandFace<D, Real>::Side{&parts_[n]->state(), shared[n][0]},
                         parts_[n]->domain().edges, int(parts_[n]->sweeps().reach()),
                         scenes_[n].subdomain.own_heights[0]);
+}
+
+/// Leaves of the scenes of all bands what this process has. Those that have rows of a band are a group of
+/// their own: within it each band is simulated as a grid on several processes is.
+template <int D, class Real>
+void BandedShot<D, Real>::take_share() {
+  const int count = ranks_ ? ranks_->count() : 1;
+  const auto shares = subdomains_for(*scene_, scenes_, ranks_ ? ranks_->number() : 0, count);
+  std::vector<Scene<D>> own;
+  for (std::size_t n = 0; n < scenes_.size(); ++n) {
+    const auto& part = shares[n];
+    auto group = count > 1 ? ranks_->split(part.is_empty() ? 0 : 1) : nullptr;
+    if (part.is_empty()) continue;
+    if (own.empty()) first_band_ = n;
+    own.push_back(cut_to(std::move(scenes_[n]), part));
+    groups_.push_back(group && group->count() > 1 ? std::move(group) : nullptr);
+  }
+  scenes_ = std::move(own);
 }
 
 template <int D, class Real>
@@ -71,12 +97,14 @@ void BandedShot<D, Real>::run_to(std::int64_t last, const Progress& progress,
       sink_(time.end_s(), [this](const FieldKey& key) { return whole_field(key); });
       for (auto& part : parts_) part->release_snapshot();
     }
-    if (last_swept.check_is_due()) check_stability();
+    if (last_swept.check_is_due())
+      check_([this] { check_stability(); }, {made - 1, last_swept.time_step().dt_s()}, made == steps());
   }
   last_swept.tell(nullptr);
 }
 
 /// On the cells of the scene's own model: each has the value of the cell of a band that its centre lies in.
+/// The first process has those of all, others their own.
 template <int D, class Real>
 Field<D> BandedShot<D, Real>::whole_field(const FieldKey& key) const {
   std::vector<Field<D>> of_bands;
@@ -84,6 +112,9 @@ Field<D> BandedShot<D, Real>::whole_field(const FieldKey& key) const {
   const auto& bands = scene_->numerics.bands;
   Field<D> field(scene_->model.grid());
   const auto& grid = field.grid();
+  // What others send of their cells: first cell and count of those that follow each other, and values.
+  std::vector<std::int64_t> runs;
+  std::vector<float> values;
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     Point<D> centre;
@@ -91,25 +122,32 @@ Field<D> BandedShot<D, Real>::whole_field(const FieldKey& key) const {
     centre[D - 1] = grid.depth(at);
     const auto below = std::upper_bound(bands.begin() + 1, bands.end(), centre[D - 1],
                                         [](double depth_m, const Band& of) { return depth_m < of.from_m; });
-    const auto band = std::size_t(below - bands.begin() - 1);
+    const auto band = std::size_t(below - bands.begin() - 1) - first_band_;
+    if (band >= of_bands.size()) continue;
     const auto& part = scenes_[band].subdomain;
-    auto cell = cell_of(of_bands[band].grid(), centre);
-    cell[D - 1] = std::clamp(cell[D - 1], part.first, part.last - 1);
+    const auto& held = of_bands[band].grid();
+    auto cell = cell_of(part.whole(held), centre);
+    cell[D - 1] = std::clamp(cell[D - 1], part.face(0), part.face(1) - 1);
+    if (cell[D - 1] < part.first || cell[D - 1] >= part.last) continue;
+    cell[D - 1] -= held.first[D - 1];
     field[std::size_t(n)] = of_bands[band](cell);
+    if (!ranks_ || ranks_->number() == 0) continue;
+    if (runs.empty() || *(runs.end() - 2) + runs.back() != n) runs.insert(runs.end(), {n, 0});
+    ++runs.back();
+    values.push_back(field[std::size_t(n)]);
+  }
+  if (ranks_) runs = gather_on_first(*ranks_, runs), values = gather_on_first(*ranks_, values);
+  auto next = values.begin();
+  for (std::size_t n = 0; n < runs.size(); n += 2) {
+    std::copy_n(next, runs[n + 1], field.begin() + runs[n]);
+    next += runs[n + 1];
   }
   return field;
 }
 
 template <int D, class Real>
 void BandedShot<D, Real>::check_stability() const {
-  for (std::size_t n = 0; n < parts_.size(); ++n) try {
-      parts_[n]->check_stability();
-    } catch (const DivergedFields<D>& seen) {
-      throw DivergedFields<D>(
-          seen.what() + std::string("; ") +
-              surroundings(scenes_[n], shot_, parts_[n]->domain().from_model(seen.first().at)),
-          seen.first());
-    }
+  for (const auto& part : parts_) part->check_and_say_where();
 }
 
 /// The rows beyond a face that each grid reads.
@@ -186,26 +224,38 @@ void BandedShot<D, Real>::serialize(Archive& archive) {
   for (auto& part : parts_) part->serialize(archive);
 }
 
-/// Each band has recorded the receivers in its cells, the traces of others are zero.
+/// Each band has recorded the receivers in its cells, the traces of others are zero. The first process adds
+/// those of all bands in their order.
 template <int D, class Real>
 Gather BandedShot<D, Real>::take_gather() {
   auto gather = empty_gather(*scene_, shot_);
   for (auto& trace : gather.traces) trace.samples.assign(std::size_t(gather.axis.count), 0);
-  for (auto& part : parts_) {
-    const auto of_band = part->take_gather();
-    for (std::size_t n = 0; n < gather.traces.size(); ++n) {
-      const auto& from = of_band.traces[n].samples;
-      for (std::size_t i = 0; i < from.size(); ++i) gather.traces[n].samples[i] += from[i];
+  const auto a_trace = std::size_t(gather.axis.count), a_band = gather.traces.size() * a_trace;
+  std::vector<double> samples;  // of all traces, band by band
+  const auto add = [&] {
+    for (std::size_t n = 0; n < samples.size(); ++n)
+      gather.traces[n % a_band / a_trace].samples[n % a_trace] += samples[n];
+    samples.clear();
+  };
+  for (std::size_t n = 0; n < parts_.size(); ++n) {
+    auto of_band = parts_[n]->take_gather();
+    for (auto& trace : of_band.traces) {
+      trace.samples.resize(a_trace);
+      if (leads(n)) samples.insert(samples.end(), trace.samples.begin(), trace.samples.end());
     }
+    if (!ranks_) add();
   }
+  if (ranks_) samples = gather_on_first(*ranks_, samples);
+  add();
   return gather;
 }
 
 template <int D, class Real>
 ShotReport BandedShot<D, Real>::report() const {
   ShotReport all;
-  for (const auto& part : parts_) {
-    const auto of_band = part->report();
+  for (std::size_t n = 0; n < parts_.size(); ++n) {
+    const auto of_band = parts_[n]->report();
+    if (!leads(n)) continue;
     if (of_band.slip) {
       auto& sum = all.slip ? *all.slip : all.slip.emplace();
       sum.cells += of_band.slip->cells, sum.slipped += of_band.slip->slipped;
@@ -214,7 +264,7 @@ ShotReport BandedShot<D, Real>::report() const {
     if (of_band.source_work) all.source_work = all.source_work.value_or(0) + *of_band.source_work;
     all.energy_left += of_band.energy_left;
   }
-  return all;
+  return of_all(all, ranks_);
 }
 
 template <int D, class Real>

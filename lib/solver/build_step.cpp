@@ -119,12 +119,15 @@ std::unique_ptr<Executor> StepBuilder<D, Real>::executor(Sweeps<D, Real>& sweeps
                                                          Halo<D, Real>* halo) const {
   const auto& tiling = scene.numerics.tiling;
   if (tiling.plain) {
-    if (halo) throw Error("the plain executor runs on one process only", ErrorKind::usage);
-    return std::make_unique<PlainExecutor<D, Real>>(sweeps, state, step);
+    if (halo && !scene.subdomain.in_bands())
+      throw Error("the plain executor runs on one process only", ErrorKind::usage);
+    auto plain = std::make_unique<PlainExecutor<D, Real>>(sweeps, state, step);
+    plain->use(halo);
+    return plain;
   }
   // Bands of cells read rows of each other while what is beside them is swept.
   const auto shared =
-      domain.rows_beside() + (scene.subdomain.other_cells ? BandFace<D, Real>::most_rows_read : 0);
+      domain.rows_beside() + (scene.subdomain.in_bands() ? BandFace<D, Real>::most_rows_read : 0);
   auto tiled = std::make_unique<TiledExecutor<D, Real>>(sweeps, state, step, tiling, shared);
   tiled->use(halo);
   return tiled;

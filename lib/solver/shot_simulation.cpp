@@ -64,19 +64,6 @@ std::optional<Medium<D>> attenuating_medium(const Scene<D>& scene, double dt_s) 
   return relaxation_by_steps(scene, dt_s).medium();
 }
 
-/// What all ranks report together.
-ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
-  ShotReport all;
-  const SlipTotals slip = mine.slip.value_or(SlipTotals{});
-  const SlipTotals totals = {sum_of(&ranks, slip.cells), sum_of(&ranks, slip.slipped),
-                             sum_of(&ranks, slip.dissipated), sum_of(&ranks, slip.out_of_waves)};
-  if (largest_of(&ranks, int(mine.slip.has_value()))) all.slip = totals;
-  const double work = sum_of(&ranks, mine.source_work.value_or(0));
-  if (largest_of(&ranks, int(mine.source_work.has_value()))) all.source_work = work;
-  all.energy_left = sum_of(&ranks, mine.energy_left);
-  return all;
-}
-
 /// The computed grid of a shot. Cells that interfaces cut and that slip are isotropic means.
 template <int D>
 Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot, double dt_s) {
@@ -94,6 +81,38 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
 }
 
 }  // namespace
+
+ShotReport of_all(const ShotReport& mine, Ranks* ranks) {
+  if (!ranks) return mine;
+  ShotReport all;
+  const SlipTotals slip = mine.slip.value_or(SlipTotals{});
+  const SlipTotals totals = {sum_of(ranks, slip.cells), sum_of(ranks, slip.slipped),
+                             sum_of(ranks, slip.dissipated), sum_of(ranks, slip.out_of_waves)};
+  if (largest_of(ranks, int(mine.slip.has_value()))) all.slip = totals;
+  const double work = sum_of(ranks, mine.source_work.value_or(0));
+  if (largest_of(ranks, int(mine.source_work.has_value()))) all.source_work = work;
+  all.energy_left = sum_of(ranks, mine.energy_left);
+  return all;
+}
+
+template <int D>
+void SharedCheck<D>::operator()(const std::function<void()>& check, const StepTime& time, bool last) {
+  if (!ranks_) return check();
+  try {
+    if (!seen_) check();
+  } catch (const DivergedFields<D>& seen) {
+    seen_.emplace(seen);
+  }
+  if ((time.step + 1) % exchanged_every != 0 && !last) return;
+  constexpr auto never = std::numeric_limits<std::int64_t>::max();
+  const auto steps = allgather(ranks_, std::vector{seen_ ? seen_->first().time.step : never});
+  const auto first = std::min_element(steps.begin(), steps.end());
+  if (*first == never) return;
+  const auto texts = allgather_texts(*ranks_, seen_ ? seen_->what() : "");
+  Divergence<D> divergence;
+  divergence.time = {*first, time.dt_s};
+  throw DivergedFields<D>(texts[std::size_t(first - steps.begin())], divergence);
+}
 
 template <int D>
 InAllBands<D> in_all_bands(const Scene<D>& scene, const std::vector<Scene<D>>& bands, std::size_t shot) {
@@ -131,7 +150,8 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       halo_(make_halo()),
       executor_(builder().executor(sweeps_, step_, halo_.get())),
       stability_(state_, domain_, unit_,
-                 bands ? bands->largest_velocity : largest_velocity(scene, shot, ranks)) {
+                 bands ? bands->largest_velocity : largest_velocity(scene, shot, ranks)),
+      check_(ranks) {
   // Everything that depends on them is built.
   domain_.release_impedances();
   attenuating_.reset();
@@ -214,26 +234,22 @@ Field<D> ShotSimulation<D, Real>::local_field(const FieldKey& key) const {
   return field;
 }
 
-/// Checks, and from time to time exchanges the findings: throws the earliest one on all ranks.
+/// One process alone says later what lies round the place (simulation.cpp).
 template <int D, class Real>
 void ShotSimulation<D, Real>::check_together() {
-  if (!ranks_) return check_stability();
+  const auto check = [this] { ranks_ ? check_and_say_where() : check_stability(); };
+  check_(check, {done_ - 1, dt_s_}, done_ == steps_);
+}
+
+template <int D, class Real>
+void ShotSimulation<D, Real>::check_and_say_where() const {
   try {
-    if (!diverged_) check_stability();
+    check_stability();
   } catch (const DivergedFields<D>& seen) {
-    diverged_.emplace(
+    throw DivergedFields<D>(
         seen.what() + std::string("; ") + surroundings(*scene_, shot_, domain_.from_model(seen.first().at)),
         seen.first());
   }
-  if (done_ % collective_every != 0 && done_ != steps_) return;
-  constexpr auto never = std::numeric_limits<std::int64_t>::max();
-  const auto steps = allgather(ranks_, std::vector{diverged_ ? diverged_->first().time.step : never});
-  const auto first = std::min_element(steps.begin(), steps.end());
-  if (*first == never) return;
-  const auto texts = allgather_texts(*ranks_, diverged_ ? diverged_->what() : "");
-  Divergence<D> divergence;
-  divergence.time = {*first, dt_s_};
-  throw DivergedFields<D>(texts[std::size_t(first - steps.begin())], divergence);
 }
 
 /// The field of the whole model on the first rank, that of their own subdomain on the others.
@@ -257,7 +273,7 @@ ShotReport ShotSimulation<D, Real>::report() const {
   for (const auto& effect : effects_) effect->report(report);
   if (const auto* const faces = sweeps_.split()) faces->report(report);
   report.energy_left += energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
-  return ranks_ ? of_all(report, *ranks_) : report;
+  return of_all(report, ranks_);
 }
 
 template <int D, class Real>
@@ -306,6 +322,7 @@ std::int64_t ShotSimulation<D, Real>::building_bytes() const {
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, in_all_bands);
+SLIPWAVE_INSTANTIATE_D(TYPE, class SharedCheck);
 SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class ShotSimulation);
 
 }  // namespace slipwave::solver

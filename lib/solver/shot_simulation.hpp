@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -30,13 +31,35 @@ struct InAllBands {
 template <int D>
 InAllBands<D> in_all_bands(const Scene<D>& scene, const std::vector<Scene<D>>& bands, std::size_t shot);
 
+/// What all ranks report together, each of its own part; what it is given where there is one process (null).
+/// Collective.
+ShotReport of_all(const ShotReport& mine, Ranks* ranks);
+
+/// Checks of fields on several ranks: each checks as often as one would alone, but they exchange their
+/// findings less often, since no rank should wait for all others.
+template <int D>
+class SharedCheck {
+ public:
+  /// `ranks` (may be null) must outlive it.
+  explicit SharedCheck(Ranks* ranks) : ranks_(ranks) {}
+  /// Calls `check`, which throws DivergedFields, at the end of a step. Collective every `exchanged_every`
+  /// steps and at the `last`: throws the earliest one that any rank has seen, on all of them.
+  void operator()(const std::function<void()>& check, const StepTime& time, bool last);
+  static constexpr std::int64_t exchanged_every = 10 * StabilityCheck<D, float>::every;
+
+ private:
+  Ranks* ranks_;
+  std::optional<DivergedFields<D>> seen_;  // on this rank, while the others do not know yet
+};
+
 /// Everything one shot needs: the fields, their sweeps, the effects and records of its time step
 /// (build_step.hpp), and what executes it.
 template <int D, class Real>
 class ShotSimulation {
  public:
   /// Collective where there are `ranks` (may be null), and so are run_to(), take_gather() and report(); the
-  /// scene is then the subdomain of each. Keeps references.
+  /// scene is then the subdomain of each. In bands these are the ranks that have rows of this one. Keeps
+  /// references.
   ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots,
                  Ranks* ranks = nullptr, const InAllBands<D>* bands = nullptr);
 
@@ -48,8 +71,8 @@ class ShotSimulation {
   std::int64_t done() const { return done_; }
   /// Throws DivergedFields where they have; between two calls of run_to(), which checks at intervals itself.
   void check_stability() const { stability_.check({done_ - 1, dt_s_}); }
-  /// Ranks check as often, but exchange their findings less often: no rank should wait for all others.
-  static constexpr std::int64_t collective_every = 10 * StabilityCheck<D, Real>::every;
+  /// The same; what it throws says what lies round the place.
+  void check_and_say_where() const;
   /// Writes or reads all that the remaining steps depend on; between two calls of run_to().
   void serialize(Archive& archive);
   Gather take_gather() { return recorder_.take(); }
@@ -116,7 +139,7 @@ class ShotSimulation {
   std::unique_ptr<Halo<D, Real>> halo_;
   std::unique_ptr<Executor> executor_;
   StabilityCheck<D, Real> stability_;
-  std::optional<DivergedFields<D>> diverged_;  // on this rank, while the others do not know yet
+  SharedCheck<D> check_;
 };
 
 }  // namespace slipwave::solver

@@ -97,8 +97,9 @@ void run(Simulation& simulation, const Progress& progress, Pauses* pauses) {
 
 template <int D, class Real>
 Gather shoot_in_bands(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-                      const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report) {
-  solver::BandedShot<D, Real> simulation(scene, shot, scene.snapshot_every_s ? snapshots : SnapshotSink<D>());
+                      const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
+  solver::BandedShot<D, Real> simulation(scene, shot, scene.snapshot_every_s ? snapshots : SnapshotSink<D>(),
+                                         ranks);
   try {
     run(simulation, progress, pauses);
   } catch (const solver::DivergedFields<D>& seen) {
@@ -115,7 +116,7 @@ template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
                 const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
   if (!scene.numerics.bands.empty())
-    return shoot_in_bands<D, Real>(scene, shot, progress, snapshots, pauses, report);
+    return shoot_in_bands<D, Real>(scene, shot, progress, snapshots, pauses, report, ranks);
   solver::ShotSimulation<D, Real> simulation(scene, shot, snapshots, ranks);
   try {
     run(simulation, progress, pauses);

@@ -49,9 +49,10 @@ class Unstable : public Error {
 /// `pauses` (may be null) can interrupt it between time tiles and resume it; that changes no bit of the
 /// result. `report` (may be null) needs a scene that keeps a diary. Throws Unstable, which says where, when,
 /// in what medium and near which effect the fields were first found to have diverged. `ranks` (may be null):
-/// processes that simulate it together, each with its subdomain of the scene, to the last bit as one would.
-/// All of them call this, none with pauses. The first gets the traces and whole fields, the others traces of
-/// zeros and the fields of their subdomains; all get the report.
+/// processes that simulate it together, to the last bit as one would, each with its subdomain of the scene;
+/// in bands of cells each with the whole of it, of which it computes its share (subdomains_for()). All of
+/// them call this, none with pauses. The first gets the traces and whole fields, the others traces of zeros
+/// and the fields of their subdomains; all get the report.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
              const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr,

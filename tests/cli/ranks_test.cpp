@@ -96,7 +96,24 @@ TEST_F(ShotByRanks, IsTheSameWhereEachShootsInBands) {
       "b.nc --source 60,10 --source 180,50 --wavelet ricker:20 --time 0.1 --receivers 20:220:40,0 -q "
       "--bands ";
   expect_same_traces(2, shots_in_bands + "0:1,30:4 ");
-  expect_same_traces(3, shots_in_bands + "auto ");  // one has no shot
+  expect_same_traces(3, shots_in_bands + "auto ");  // one has no shot: all cannot share these rows
+}
+
+TEST_F(ShotByRanks, IsTheSameWhereTheyShareAShotInBands) {
+  done("sw-layers --size 240x180 --step 1 --layer 0:600:300:1800 --layer 60:2400:1200:2200 -o b.nc");
+  const std::string shot =
+      "b.nc --source 120,10 --wavelet ricker:20 --time 0.1 --receivers 20:220:40,0 --receivers 100,70 -q "
+      "--bands 0:1,60:4 --snapshots s.nc --every 0.05 ";
+  done("sw-shoot " + shot + "-o s.sgy && mv s.nc alone.nc && mv s.sgy alone.sgy");
+  for (const std::string ranks : {"", "--ranks-per-shot 3 "}) {
+    const auto ran = run(line(3, shot + ranks + "-o s.sgy"));
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    done("cmp alone.nc s.nc && cmp alone.sgy s.sgy");
+  }
+  // Where no bands are found they share the rows of the model.
+  const std::string one_rock =
+      "m.nc --source 390,310 --wavelet ricker:25 --time 0.1 --receivers 10,10 -q --bands auto ";
+  expect_same_traces(2, one_rock);
 }
 
 TEST_F(ShotByRanks, InThreeDimensionsToo) {
@@ -127,10 +144,13 @@ TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {
   expect(shots + "--keep-unstable", 2,
          "found --keep-unstable and an output to standard output, expected the name of a file");
   expect(shots + "--checkpoint c -o o.sgy", 2, "--checkpoint does not work with 3 processes; use one");
-  expect(shots + "--bands 0:2.5,100:5 --ranks-per-shot 3 -o o.sgy", 2,
-         "more than one process a shot with --bands does not work with 3 processes; use --ranks-per-shot 1");
-  expect(shots + "--bands auto --snapshots s.nc --every 0.1 -o o.sgy", 2,
-         "--bands with --snapshots does not work with 3 processes; use one");
+  expect(
+      shots + "--bands 0:5,100:20 --order 11 --ranks-per-shot 3 -q -o o.sgy", 2,
+      "found 3 processes a shot for bands of 20 and 40 rows, expected at most 2: each takes 14 or more of a "
+      "band that it shares");
+  expect(shots + "--bands 0:5,101:10 -q -o o.sgy", 2,
+         "--bands: found a band from z=101 m on, where no row of cells of 5 m begins, expected it at an "
+         "interface that rows follow, or at a multiple of the cells of both bands");
   expect("- " + shots.substr(5) + "-o o.sgy", 2,
          "a model from standard input does not work with 3 processes; give the name of a file");
 }

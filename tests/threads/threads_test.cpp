@@ -99,7 +99,7 @@ TEST(Threads, ShareAShotOfFourthOrderInDoublePrecision) {
 }
 
 /// Faces between bands in one rock and at an interface, at the order that reads most rows beyond them.
-TEST(Threads, ShareAShotInBands) {
+Scene<2> scene_in_bands() {
   auto scene = scene_of(EdgeLaw::absorbing, false);
   auto& medium = scene.model.medium;
   for (std::int64_t k = 0; k < nz; ++k)
@@ -107,7 +107,23 @@ TEST(Threads, ShareAShotInBands) {
   scene.numerics.order = 11;
   scene.numerics.cfl = 0.45;
   scene.numerics.bands = {{0, 5}, {600, 10}, {1000, 20}};
-  expect_the_same_on_threads(scene);
+  return scene;
+}
+
+TEST(Threads, ShareAShotInBands) { expect_the_same_on_threads(scene_in_bands()); }
+
+TEST(Threads, OfSeveralRanksShareAShotInBands) {
+  const auto scene = scene_in_bands();
+  const auto alone = samples_of(shoot(scene, 1));
+  for (const int count : {2, 3}) {
+    const ThreadLimit limit(4);
+    std::vector<double> together;
+    RanksInThreads::run(count, [&](Ranks& ranks) {
+      const auto gather = shoot(scene, 1, {}, {}, nullptr, nullptr, &ranks);
+      if (ranks.number() == 0) together = samples_of(gather);
+    });
+    EXPECT_TRUE(together == alone) << count << " ranks";
+  }
 }
 
 TEST(Threads, OfSeveralRanksRecordWhatOneDoes) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "accuracy/full_space.hpp"
@@ -12,8 +13,11 @@
 #include "memory_archive.hpp"
 #include "model/fracture.hpp"
 #include "parallel/threads.hpp"
+#include "plain_and_tiled.hpp"
 #include "planning/measured_error.hpp"
 #include "samples.hpp"
+#include "scene/bands.hpp"
+#include "shared_out.hpp"
 #include "solver/banded_shot.hpp"
 #include "solver/simulation.hpp"
 #include "stack_scene.hpp"
@@ -139,8 +143,9 @@ TEST(Bands, AttenuateAsCellsOfOneSizeDo) {
 }
 
 /// Soft ground with compliant planes on both sides of its bottom and across it.
-Scene<2> fractured_ground() {
+Scene<2> fractured_ground(double margin_m = 60) {
   auto stack = soft_ground();
+  stack.margin_m = margin_m;
   stack.duration_s = 0.3, stack.spacing_m = 1;
   auto scene = stack.scene();
   auto& model = scene.model;
@@ -170,8 +175,8 @@ TEST(Bands, GiveWayAsCellsOfOneSizeDo) {
 
 /// Level and upright fractures on faces, in soil and in the rock below it; one is too short for cells of the
 /// rock.
-Scene<2> cracked_ground() {
-  auto scene = fractured_ground();
+Scene<2> cracked_ground(double margin_m = 60) {
+  auto scene = fractured_ground(margin_m);
   const auto fractures = [](double compliance_m_per_pa, std::vector<FractureTrace<2>> traces) {
     SlipSystem<2> planes;
     planes.law = FrictionLaw::none;
@@ -215,9 +220,9 @@ TEST(Bands, ReflectNextToNothingInOneRock) {
 }
 
 /// A box of rigid walls in 3-D, a force in its soft half.
-Scene<3> box_in_space() {
+Scene<3> box_in_space(std::int64_t rows = 60) {
   Scene<3> scene;
-  const Grid<3> grid{{30, 30, 60}, 3, {0, 0, 0}};
+  const Grid<3> grid{{30, 30, rows}, 3, {0, 0, 0}};
   auto& medium = scene.model.medium = Medium<3>(grid);
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto& rock = grid.index(n)[2] < 24 ? mud : hard;
@@ -410,6 +415,174 @@ TEST(Bands, GiveTheSameBitsWhateverTheThreads) {
   expect_on_threads(stack.scene(), {{0, 0.6}, {30, 2.4}});
   stack.rocks = {hard, soft}, stack.spacing_m = 1;
   expect_on_threads(stack.scene(), {{0, 2}, {30, 1}});
+}
+
+/// The bands in which the rows of the processes end, but those of the last.
+template <int D>
+std::vector<std::size_t> bands_cut(const Scene<D>& scene, int count) {
+  const auto bands = scenes_of_bands(scene);
+  std::vector<std::size_t> cut;
+  for (int number = 0; number + 1 < count; ++number) {
+    const auto parts = subdomains_for(scene, bands, number, count);
+    for (std::size_t n = 0; n < parts.size(); ++n)
+      if (!parts[n].is_empty() && parts[n].continues(1)) cut.push_back(n);
+  }
+  return cut;
+}
+
+/// Receivers down through all bands: near faces between bands and near the ends of the rows of processes.
+template <int D>
+void add_borehole(Scene<D>& scene, double every_m) {
+  auto at = scene.survey.sources.front().position_m;
+  at[0] += 7.3;
+  const auto& grid = scene.model.grid();
+  for (double z = 0.4; z < double(grid.shape[D - 1]) * grid.spacing_m; z += every_m) {
+    at[D - 1] = z;
+    scene.survey.receivers_m.push_back(at);
+  }
+}
+
+/// So many processes, and the bands in which their rows end.
+using CutBands = std::vector<std::pair<int, std::vector<std::size_t>>>;
+
+/// Expects processes to have the outcome of one: in tiles and plainly, with receivers everywhere and with
+/// those of the scene, which let processes exchange fewer rows.
+template <int D>
+void expect_same_on_ranks(const char* what, Scene<D> scene, std::vector<Band> bands, double duration_s,
+                          const CutBands& all) {
+  SCOPED_TRACE(what);
+  scene.recording.duration_s = duration_s;
+  scene.snapshot_every_s = duration_s / 2;
+  scene.slip_diary = true;
+  scene.numerics.bands = std::move(bands);
+  for (const bool borehole : {false, true}) {
+    if (borehole) add_borehole(scene, 1.7);
+    const auto alone = outcome_of(scene);
+    ASSERT_GT(*std::max_element(alone.snapshots.begin(), alone.snapshots.end()), 0);
+    const auto& heard = borehole ? alone.samples : std::vector<double>{1};
+    ASSERT_GT(*std::max_element(heard.begin(), heard.end()), 0);
+    for (const auto& [count, cut] : all) {
+      EXPECT_EQ(bands_cut(scene, count), cut) << count << " ranks";
+      for (const bool plain : {false, true}) {
+        if (plain && !borehole && !long_form()) continue;
+        scene.numerics.tiling.plain = plain;
+        SCOPED_TRACE(std::to_string(count) + " ranks" + (plain ? ", plainly" : "") +
+                     (borehole ? ", a borehole" : ""));
+        const ThreadLimit limit(count == 2 ? 3 : 1);
+        RanksInThreads::run(count, [&scene, &alone](Ranks& ranks) {
+          Outcome found;
+          shoot_into(found, scene, nullptr, &ranks);
+          if (ranks.number() == 0)
+            expect_same_outcome(found, alone);
+          else
+            expect_same_diary(found, alone);
+        });
+      }
+      scene.numerics.tiling.plain = false;
+    }
+  }
+}
+
+/// Soft ground of few columns whose rock has rows for several processes.
+StackScene deep_ground() {
+  auto stack = soft_ground();
+  stack.receivers = line_at(0, 50), stack.margin_m = 90;
+  return stack;
+}
+
+TEST(BandsOnRanks, GiveTheBitsOfOneProcess) {
+  const std::vector<Band> bands = {{0, 0.6}, {30, 2.4}};
+  const auto stack = deep_ground();
+  expect_same_on_ranks("soft ground", stack.scene(), bands, 0.04, {{2, {0}}, {3, {0, 0}}, {5, {0, 0, 0, 1}}});
+  auto scene = stack.scene();
+  scene.numerics.order = 5, scene.numerics.time_order = 4;
+  expect_same_on_ranks("fourth order in time", scene, bands, 0.03, {{2, {0}}, {5, {0, 0, 0, 1}}});
+  scene = stack.scene();
+  scene.edges[0] = {EdgeLaw::free, EdgeLaw::absorbing};
+  expect_same_on_ranks("a free side", scene, bands, 0.03, {{3, {0, 1}}});
+}
+
+/// Sources on a face between bands and beside it, and where the rows of one process end.
+TEST(BandsOnRanks, MoveRockAsOneProcessDoes) {
+  const std::vector<Band> bands = {{0, 0.6}, {30, 2.4}};
+  auto stack = deep_ground();
+  auto scene = stack.scene();
+  scene.numerics.bands = bands;
+  const double end_m = 0.6 * double(subdomains_for(scene, scenes_of_bands(scene), 0, 2).front().last);
+  for (const double depth_m : {30., 29.4, 31., end_m, end_m - 0.3}) {
+    stack.source_b = depth_m;
+    expect_same_on_ranks(("from " + std::to_string(depth_m) + " m").c_str(), stack.scene(), bands, 0.015,
+                         {{2, {0}}});
+  }
+}
+
+TEST(BandsOnRanks, EndTheirRowsInTheLowerBandToo) {
+  auto stack = deep_ground();
+  stack.rocks = {hard, soft}, stack.spacing_m = 1;
+  expect_same_on_ranks("hard on soft", stack.scene(), {{0, 2}, {30, 1}}, 0.03, {{2, {1}}, {3, {1, 1}}});
+}
+
+TEST(BandsOnRanks, ShareThreeBands) {
+  auto stack = deep_ground();
+  stack.rocks = {soft, stiff_soil, hard}, stack.faces_m = {0, 15, 75};
+  stack.spacing_m = 0.75, stack.margin_m = 120, stack.order = 5;
+  const std::vector<Band> bands = {{0, 0.75}, {15, 1.5}, {75, 3}};
+  expect_same_on_ranks("three", stack.scene(), bands, 0.05, {{2, {1}}, {3, {1, 1}}, {5, {1, 1, 2, 2}}});
+}
+
+TEST(BandsOnRanks, AttenuateAndGiveWayAsInOneProcess) {
+  auto stack = deep_ground();
+  stack.qualities = {{30, 15}, {100, 60}};
+  expect_same_on_ranks("attenuating", stack.scene(), {{0, 0.6}, {30, 2.4}}, 0.03, {{3, {0, 0}}});
+  expect_same_on_ranks("compliant planes", fractured_ground(), {{0, 1}, {30, 2}}, 0.04, {{2, {0}}});
+  expect_same_on_ranks("fractures on faces", cracked_ground(100), {{0, 1}, {30, 2}}, 0.04, {{2, {1}}});
+}
+
+TEST(BandsOnRanks, GiveTheBitsOfOneProcessInSpace) {
+  auto scene = box_in_space(120);
+  scene.survey.receivers_m.resize(1);
+  scene.survey.receivers_m[0][2] = 1;
+  auto& source_z_m = scene.survey.sources[0].position_m[2];  // near where rows of one process end
+  if (long_form()) expect_same_on_ranks("rigid", scene, {{0, 3}, {72, 6}}, 0.005, {{2, {0}}});
+  source_z_m = 140;
+  expect_same_on_ranks("rigid below", scene, {{0, 3}, {72, 6}}, 0.005, {{5, {0, 1, 1, 1}}});
+  source_z_m = 195;
+  for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {EdgeLaw::free, EdgeLaw::absorbing};
+  expect_same_on_ranks("free and absorbing", scene, {{0, 3}, {72, 6}}, 0.005, {{2, {1}}});
+}
+
+TEST(BandsOnRanks, AllSayWhereAShotBecameUnstable) {
+  auto scene = deep_ground().scene();
+  scene.numerics.bands = {{0, 0.6}, {30, 2.4}};
+  scene.numerics.cfl = 2.5;
+  std::vector<std::string> said(3);
+  RanksInThreads::run(3, [&](Ranks& ranks) {
+    try {
+      shoot(scene, 1, {}, {}, nullptr, nullptr, &ranks);
+    } catch (const Unstable& error) {
+      said[std::size_t(ranks.number())] = error.what();
+    }
+  });
+  EXPECT_NE(said[0].find("became unstable at x="), std::string::npos) << said[0];
+  EXPECT_EQ(said, std::vector<std::string>(3, said[0]));
+}
+
+TEST(BandsOnRanks, AreRefusedWhereRowsAreTooFew) {
+  auto scene = soft_ground().scene();
+  scene.numerics.bands = {{0, 0.6}, {30, 2.4}};
+  const auto bands = scenes_of_bands(scene);
+  EXPECT_EQ(most_processes(scene, bands), 5);
+  try {
+    subdomains_for(scene, bands, 0, 9);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "found 9 processes a shot for bands of 50 and 25 rows, expected at most 5: each takes 12 or "
+                 "more of a band that it shares");
+  }
+  scene.survey.sources[0].mechanism = PlaneWave<2>{};
+  EXPECT_EQ(most_processes(scene, bands), 1);
+  EXPECT_THROW(subdomains_for(scene, bands, 0, 2), Error);
 }
 
 }  // namespace

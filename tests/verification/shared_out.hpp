@@ -12,9 +12,10 @@
 
 namespace slipwave::solver {
 
-/// What one of several ranks computes of a scene.
+/// What one of several ranks is given of a scene: in bands of cells all of it.
 template <int D>
 Scene<D> part_of(const Scene<D>& scene, Ranks& ranks) {
+  if (!scene.numerics.bands.empty()) return scene;
   auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
   join(part, ranks);
   return part;

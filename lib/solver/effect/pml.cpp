@@ -261,14 +261,18 @@ void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& 
     at[std::size_t(across)] = cell;
     return at;
   };
-  const IndexRange mine = shared_out ? domain.own : IndexRange{0, layout_.shape()[std::size_t(across)]};
+  const IndexRange mine =
+      shared_out ? domain.own_and_other_cells() : IndexRange{0, layout_.shape()[std::size_t(across)]};
   std::vector<double> impedances;  // [cell][run][wave]
   for (auto cell = mine.first; cell < mine.last; ++cell)
     for (std::int64_t run = 0; run < runs; ++run)
       for (const Wave wave : {wave_p, wave_s}) impedances.push_back(domain.impedance(wave)(place(run, cell)));
   if (shared_out) impedances = allgather(ranks, impedances);
   const std::int64_t cells = std::int64_t(impedances.size()) / (2 * runs);
-  const std::int64_t before = shared_out ? domain.grid.first[std::size_t(across)] : 0;
+  // Those gathered begin with the first row that any rank has.
+  const std::int64_t held = domain.grid.first[std::size_t(across)];
+  const std::int64_t before =
+      shared_out ? held - allgather(ranks, std::vector{held + mine.first}).front() : 0;
   const auto& laws = domain.whole_edges[across];
   for (std::int64_t run = 0; run < runs; ++run) {
     const auto z = [&](std::int64_t cell) {

@@ -73,7 +73,9 @@ void PointSource<D, Real>::share(Ranks& ranks) {
     reach.push_back(reach_);
   }
   for (auto& value : values_) value.line += before * lines_a_row;
-  centre_ = allgather(&ranks, centre).at(0);
+  centre = allgather(&ranks, centre);
+  if (centre.empty()) return;  // it lies in another band
+  centre_ = centre.front();
   centre_[D - 1] -= before;
   reach_ = allgather(&ranks, reach).at(0);
   const auto all = allgather(&ranks, values_);

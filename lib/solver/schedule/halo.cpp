@@ -11,7 +11,6 @@ namespace slipwave::solver {
 template <int D, class Real>
 Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Exchange& memory)
     : ranks_(ranks), own_(domain.own), exchanged_(domain.subdomain.exchanged) {
-  const std::int64_t rows = domain.grid.shape[D - 1];
   auto& [above, below] = sides_;
   above.rows_in = {own_.first - exchanged_, own_.first};
   above.rows_out = {own_.first, own_.first + exchanged_};
@@ -20,8 +19,8 @@ Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state
   // Up goes under one tag, down under the other.
   above.tag_out = below.tag_in = 0;
   below.tag_out = above.tag_in = 1;
-  if (own_.first > 0) prepare(above, ranks.number() - 1, state, memory);
-  if (own_.last < rows) prepare(below, ranks.number() + 1, state, memory);
+  if (domain.subdomain.continues(0)) prepare(above, ranks.number() - 1, state, memory);
+  if (domain.subdomain.continues(1)) prepare(below, ranks.number() + 1, state, memory);
 }
 
 template <int D, class Real>

@@ -40,11 +40,14 @@ std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
 
 template <int D, class Real>
 void PlainExecutor<D, Real>::run_from(const SweepTime& across, std::int64_t, std::int64_t, int) {
+  const auto rows = state_.layout.shape()[D - 1];
+  if (halo_) halo_->before({0, rows});
   for (const auto& at : step_.from_across(across)) {
     const StepTime time{at.step, step_.dt_s()};
     step_.begin_once(at.step);
     step_.is_last(at) ? end(time) : sweep(at.sweep, time);
   }
+  if (halo_) halo_->after(0, rows);
 }
 
 template <int D, class Real>

@@ -547,6 +547,9 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   const auto held = domain.model_grid.first[z];
   if (part.cut(0)) domain.own.first = part.first - held;
   if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
+  domain.band = {0, domain.grid.shape[z]};
+  if (part.other_cells[0] > 0) domain.band.first = part.face(0) - held;
+  if (part.other_cells[1] > 0) domain.band.last = part.face(1) - held + domain.low_zone[z];
   set_impedances(domain, medium);
   domain.find_material_kind();
   find_anisotropic_cells(domain, medium);

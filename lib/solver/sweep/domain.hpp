@@ -55,6 +55,7 @@ class Domain {
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
   IndexRange own;                   // rows of the computed grid that this process owns
+  IndexRange band;                  // of which they are some: those of its cells, with no bands all
   std::vector<SplitFace<D>> split;  // of the computed grid, by axis and cell: no uniform run crosses these
   std::vector<std::int64_t> soft;   // cells that carry next to no stress (soft_cells())
   int order = 1;                    // of the reconstruction, at most
@@ -143,10 +144,16 @@ class Domain {
   /// Whether a row has a face that two bands of cells share.
   bool beside_band(std::int64_t row) const {
     const auto shared = [&](int side) {
-      const auto face = side ? own.last : own.first;
-      return subdomain.cut(side) && (row == face || row + 1 == face);
+      const auto face = side ? band.last : band.first;
+      return subdomain.other_cells[std::size_t(side)] > 0 && (row == face || row + 1 == face);
     };
-    return subdomain.other_cells && (shared(0) || shared(1));
+    return shared(0) || shared(1);
+  }
+  bool in_band(std::int64_t row) const { return row >= band.first && row < band.last; }
+  /// Its own rows and those of other bands that it holds: what is found of all rows, each counted once.
+  IndexRange own_and_other_cells() const {
+    return {subdomain.ends_at_band(0) ? 0 : own.first,
+            subdomain.ends_at_band(1) ? grid.shape[D - 1] : own.last};
   }
   /// Rows of neighbouring subdomains that it holds on either side, at most.
   std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }

@@ -74,7 +74,7 @@ Box<D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings, std
   };
   const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
     if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
-    if (axis == D - 1 && domain.subdomain.other_cells && !domain.owns(layer)) return false;
+    if (axis == D - 1 && !domain.in_band(layer)) return false;
     return all_of_layer<D>(box.cells, axis, layer, [&](const Index<D>& at) {
       Index<D> inside = at;
       inside[axis] += layer < centre[axis] ? 1 : -1;
@@ -326,8 +326,7 @@ bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int veloci
   if (domain.curvilinear(behind[D - 1]) || domain.curvilinear(before[D - 1]) ||
       !strong_interface_between(impedance(before), impedance(behind)))
     return false;
-  if (domain.subdomain.other_cells && !(domain.owns(before[D - 1]) && domain.owns(behind[D - 1])))
-    return false;
+  if (!domain.in_band(before[D - 1]) || !domain.in_band(behind[D - 1])) return false;
   const auto ends = [&](const SplitFace<D>& face) { return face.axis == axis && face.behind == behind; };
   if (std::any_of(domain.split.begin(), domain.split.end(), ends)) return false;
   for (int along = 0; along < D; ++along)
@@ -448,12 +447,12 @@ static bool is_of(const Domain<D>& domain, const Index<D>& cell, Side side) {
 
 template <int D>
 bool owns_point(const Domain<D>& domain, const Point<D>& point_m, Side side) {
-  if (!domain.subdomain.other_cells) return domain.subdomain.owns(domain.model_grid, point_m);
+  if (!domain.subdomain.in_bands()) return domain.subdomain.owns(domain.model_grid, point_m);
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
   const double row = domain.grid.position(D - 1, place[D - 1]) + 0.5;
   for (const int of : {0, 1}) {
     const auto face = of ? domain.own.last : domain.own.first;
-    if (!domain.subdomain.cut(of) || std::abs(row - double(face)) > on_face) continue;
+    if (!domain.subdomain.ends_at_band(of) || std::abs(row - double(face)) > on_face) continue;
     Index<D> behind = domain.computed_cell(cell_of(domain.model_grid, point_m));
     behind[D - 1] = face;
     Index<D> before = behind;
@@ -468,7 +467,7 @@ bool owns_point(const Domain<D>& domain, const Point<D>& point_m, Side side) {
 template <int D>
 Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
   Index<D> at = domain.computed_cell(cell_of(domain.model_grid, point_m));
-  if (domain.subdomain.other_cells) at[D - 1] = std::clamp(at[D - 1], domain.own.first, domain.own.last - 1);
+  at[D - 1] = std::clamp(at[D - 1], domain.band.first, domain.band.last - 1);
   const auto& p_waves = domain.impedance(wave_p);
   const auto counts = [&](const Index<D>& cell) { return is_of(domain, cell, side); };
   if (counts(at)) return at;
@@ -480,8 +479,7 @@ Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m, Side side) {
       const double face = double(cell) + 0.5 * beyond;
       cell += beyond;
       if (std::abs(domain.grid.position(axis, place[axis]) - face) > on_face || cell < 0 ||
-          cell >= domain.grid.shape[std::size_t(axis)] ||
-          (domain.subdomain.other_cells && !domain.owns(beside[D - 1])))
+          cell >= domain.grid.shape[std::size_t(axis)] || !domain.in_band(beside[D - 1]))
         continue;
       if (counts(beside) || (p_waves(at) == 0 && p_waves(beside) > 0)) return beside;
     }

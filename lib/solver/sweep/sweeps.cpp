@@ -482,8 +482,11 @@ template <int D, class Real>
 std::array<SharedFaces<Real>*, 2> Sweeps<D, Real>::share_faces(const Domain<D>& domain) {
   own_ = domain.own;
   const auto& layout = state_.layout;
+  const auto& part = domain.subdomain;
+  if (part.continues(0)) own_.first -= part.exchanged;
+  if (part.continues(1)) own_.last += part.exchanged;
   for (const int side : {0, 1}) {
-    if (!domain.subdomain.cut(side)) continue;
+    if (!part.ends_at_band(side)) continue;
     SharedFaces<Real> face{.row = side ? own_.last : own_.first, .pitch = layout.padded_nx()};
     face.rows = std::int64_t(2) * make_ring(z_axis, 0, 0).pairs();
     face.values.resize(std::size_t(layout.lines() / layout.shape()[z_axis] * face.rows * face.pitch));

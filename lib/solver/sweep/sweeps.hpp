@@ -52,15 +52,16 @@ class Sweeps {
   void split_faces(const Domain<D>& domain, double dt_s, double unit);
   /// Null where there are none.
   SplitFaces<D, Real>* split() const { return tables_.split.get(); }
-  /// From now on own_rows() are those that the domain owns. Returns the faces to the grids above and below,
-  /// where there are any, to be given where a neighbour has more columns.
+  /// From now on own_rows() are those that the domain owns and what other processes refresh. Returns the
+  /// faces to the grids of other cells above and below, where there are any, to be given where a neighbour
+  /// has more columns.
   std::array<SharedFaces<Real>*, 2> share_faces(const Domain<D>& domain);
   /// Rows of the last axis that are swept: all, or those beside faces that are shared.
   const IndexRange& own_rows() const { return own_; }
   /// Steps of a sweep along the last axis that these rows need. Beyond them a face that is shared needs the
   /// outgoing waves of one more.
   IndexRange steps_of_own_rows() const {
-    return {shared_[0] ? own_.first - 1 + tables_.reach : 0, own_.last + rows_behind()};
+    return {own_.first > 0 ? own_.first - 1 + tables_.reach : 0, own_.last + rows_behind()};
   }
   /// Whether nothing that faces of a line have retained or are given is other than zero in these columns.
   bool faces_at_rest(std::int64_t line, const IndexRange& columns) const {
