@@ -493,10 +493,11 @@ StackScene deep_ground() {
 TEST(BandsOnRanks, GiveTheBitsOfOneProcess) {
   const std::vector<Band> bands = {{0, 0.6}, {30, 2.4}};
   const auto stack = deep_ground();
-  expect_same_on_ranks("soft ground", stack.scene(), bands, 0.04, {{2, {0}}, {3, {0, 0}}, {5, {0, 0, 0, 1}}});
+  if (long_form()) expect_same_on_ranks("soft ground", stack.scene(), bands, 0.04, {{2, {0}}, {3, {0, 0}}});
+  expect_same_on_ranks("five on soft ground", stack.scene(), bands, 0.03, {{5, {0, 0, 0, 1}}});
   auto scene = stack.scene();
   scene.numerics.order = 5, scene.numerics.time_order = 4;
-  expect_same_on_ranks("fourth order in time", scene, bands, 0.03, {{2, {0}}, {5, {0, 0, 0, 1}}});
+  expect_same_on_ranks("fourth order in time", scene, bands, 0.02, {{2, {0}}});
   scene = stack.scene();
   scene.edges[0] = {EdgeLaw::free, EdgeLaw::absorbing};
   expect_same_on_ranks("a free side", scene, bands, 0.03, {{3, {0, 1}}});
@@ -545,7 +546,7 @@ TEST(BandsOnRanks, GiveTheBitsOfOneProcessInSpace) {
   auto& source_z_m = scene.survey.sources[0].position_m[2];  // near where rows of one process end
   if (long_form()) expect_same_on_ranks("rigid", scene, {{0, 3}, {72, 6}}, 0.005, {{2, {0}}});
   source_z_m = 140;
-  expect_same_on_ranks("rigid below", scene, {{0, 3}, {72, 6}}, 0.005, {{5, {0, 1, 1, 1}}});
+  if (long_form()) expect_same_on_ranks("rigid below", scene, {{0, 3}, {72, 6}}, 0.005, {{5, {0, 1, 1, 1}}});
   source_z_m = 195;
   for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {EdgeLaw::free, EdgeLaw::absorbing};
   expect_same_on_ranks("free and absorbing", scene, {{0, 3}, {72, 6}}, 0.005, {{2, {1}}});
