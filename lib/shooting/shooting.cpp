@@ -188,9 +188,9 @@ RankGroups groups_in_bands(Scene<D>& scene, const ShootingOptions& options, cons
   auto* const group = groups.group();
   collective_try(&ranks, [&] {
     if (!bands.empty()) return void(subdomains_for(scene, bands, 0, group ? group->count() : 1));
-    if (group)
-      scene =
-          cut_to(std::move(scene), subdomain_for(scene, scene.model.grid(), group->number(), group->count()));
+    if (!group) return;
+    const auto part = subdomain_for(scene, scene.model.grid(), group->number(), group->count());
+    scene = cut_to(std::move(scene), part);
   });
   if (bands.empty() && group) join(scene, *group);
   return groups;
