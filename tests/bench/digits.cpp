@@ -62,6 +62,7 @@ std::vector<Compared> scenes() {
   space.receivers = {{750, 0}, {1500, 0}};
   StackScene ground{"ground", {{3000, 1700, 2200}}, {0}, true, 15};
   ground.source_b = 20, ground.force = {{0, 1}}, ground.receivers = line_at(10, 100, 600, 100);
+  ground.margin_m = 300;
   StackScene layers{
       "layers", {{1800, 900, 1900}, {2600, 1400, 2100}, {3500, 2000, 2300}}, {0, 137.3, 229.2}, true};
   layers.source_b = 20, layers.force = {{0, 1}}, layers.receivers = line_at(10, 100, 600, 100);
