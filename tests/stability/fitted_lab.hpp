@@ -68,9 +68,10 @@ class FittedLab {
  private:
   static solver::Domain<D> domain_of(const Medium<D>& medium, const EdgeLaws<D>& edges,
                                      const Numbers& numbers, double dt_s) {
-    const double longest = numbers.time_order == 4 ? 2 : 1;
-    auto domain =
-        solver::make_domain(medium, edges, numbers.zone_cells, {}, numbers.order, longest / numbers.cfl);
+    Numerics numerics;
+    numerics.time_order = numbers.time_order;
+    auto domain = solver::make_domain(medium, edges, numbers.zone_cells, {}, numbers.order,
+                                      largest_cfl(numerics) / numbers.cfl);
     domain.steps = {&medium, dt_s, numbers.time_order};
     return domain;
   }

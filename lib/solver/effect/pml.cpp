@@ -80,6 +80,26 @@ class BackwardGroupVelocity {
   std::vector<double> of_media_;
 };
 
+/// The damping of all fields, in terms of d, with which no wave grows by more than most_growth on its way out
+/// through a layer whose rows have a slope (theory.md (F10a)). `damped`: the integral of d/c over the layer,
+/// with c the speed of the slowest wave; infinite where that is not known, so that nothing grows.
+double damping_of_slope(double slope, double damped) {
+  constexpr int angles = 90;
+  static const auto directions = [] {
+    std::array<std::array<double, 2>, angles> all{};  // cosine and sine
+    for (int n = 0; n < angles; ++n) {
+      const double angle = n * std::numbers::pi / (2 * angles);
+      all[std::size_t(n)] = {std::cos(angle), std::sin(angle)};
+    }
+    return all;
+  }();
+  const double allowed = std::log(most_growth) / damped;
+  double needed = 0;
+  for (const auto& [cosine, sine] : directions)
+    needed = std::max(needed, cosine * (slope * sine - cosine - allowed));
+  return needed;
+}
+
 }  // namespace
 
 template <int D, class Real>
@@ -189,20 +209,6 @@ double Pml<D, Real>::most_damped(int axis) const {
       if (factors.lost_in_plates[slot] > 0)
         most = std::min(most, most_lost / double(factors.lost_in_plates[slot]));
   return most;
-}
-
-/// The damping of all fields, in terms of d, with which no wave grows by more than most_growth on its way out
-/// through a layer whose rows have a slope (theory.md (F10a)). `damped`: the integral of d/c over the layer,
-/// with c the speed of the slowest wave; infinite where that is not known, so that nothing grows.
-double damping_of_slope(double slope, double damped) {
-  constexpr int angles = 90;
-  const double allowed = std::log(most_growth) / damped;
-  double needed = 0;
-  for (int n = 1; n < angles; ++n) {
-    const double angle = n * std::numbers::pi / (2 * angles);
-    needed = std::max(needed, std::cos(angle) * (slope * std::sin(angle) - std::cos(angle) - allowed));
-  }
-  return needed;
 }
 
 /// Marks cells along an edge beyond which rows keep a slope: in row coordinates all waves turn there.
