@@ -466,17 +466,8 @@ void expect_same_on_ranks(const char* what, Scene<D> scene, std::vector<Band> ba
       for (const bool plain : {false, true}) {
         if (plain && !borehole && !long_form()) continue;
         scene.numerics.tiling.plain = plain;
-        SCOPED_TRACE(std::to_string(count) + " ranks" + (plain ? ", plainly" : "") +
-                     (borehole ? ", a borehole" : ""));
-        const ThreadLimit limit(count == 2 ? 3 : 1);
-        RanksInThreads::run(count, [&scene, &alone](Ranks& ranks) {
-          Outcome found;
-          shoot_into(found, scene, nullptr, &ranks);
-          if (ranks.number() == 0)
-            expect_same_outcome(found, alone);
-          else
-            expect_same_diary(found, alone);
-        });
+        SCOPED_TRACE(std::string(plain ? "plainly" : "in tiles") + (borehole ? ", a borehole" : ""));
+        expect_same_on_ranks(scene, alone, count, count == 2 ? 3 : 1);
       }
       scene.numerics.tiling.plain = false;
     }

@@ -38,23 +38,6 @@ Scene<2> reef(std::int64_t nx = 90) {
   return scene;
 }
 
-/// Expects ranks to give the outcome of one process, and all of them its diary.
-template <int D>
-void expect_same_on_ranks(const Scene<D>& scene, const Outcome& alone, int count, int threads) {
-  SCOPED_TRACE(std::to_string(count) + " ranks, " + std::to_string(threads) + " threads");
-  const ThreadLimit limit(threads);
-  RanksInThreads::run(count, [&](Ranks& ranks) {
-    const auto part = part_of(scene, ranks);
-    check(part);
-    Outcome found;
-    shoot_into(found, part, nullptr, &ranks);
-    if (ranks.number() == 0)
-      expect_same_outcome(found, alone);
-    else
-      expect_same_diary(found, alone);
-  });
-}
-
 class OnRanks : public testing::TestWithParam<BitScene> {};
 
 // Proves (F10), (S18), (S43), (A13).

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "parallel/threads.hpp"
+#include "plain_and_tiled.hpp"
 #include "ranks_in_threads.hpp"
 #include "samples.hpp"
 #include "scene/subdomains.hpp"
@@ -33,6 +35,23 @@ Gather shared_out(const Scene<D>& scene, int count, int threads = 1) {
     if (ranks.number() == 0) found = std::move(gather);
   });
   return found;
+}
+
+/// Expects ranks to give the outcome of one process, and all of them its diary.
+template <int D>
+void expect_same_on_ranks(const Scene<D>& scene, const Outcome& alone, int count, int threads) {
+  SCOPED_TRACE(std::to_string(count) + " ranks, " + std::to_string(threads) + " threads");
+  const ThreadLimit limit(threads);
+  RanksInThreads::run(count, [&](Ranks& ranks) {
+    const auto part = part_of(scene, ranks);
+    check(part);
+    Outcome found;
+    shoot_into(found, part, nullptr, &ranks);
+    if (ranks.number() == 0)
+      expect_same_outcome(found, alone);
+    else
+      expect_same_diary(found, alone);
+  });
 }
 
 }  // namespace slipwave::solver
