@@ -10,6 +10,7 @@
 #include "model/fracture.hpp"
 #include "model/prestress.hpp"
 #include "model_cases.hpp"
+#include "rock/tilted_mean.hpp"
 
 namespace slipwave::model_fit_test {
 namespace {
