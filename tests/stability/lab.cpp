@@ -52,6 +52,7 @@ Lab<Real>::Lab(const Setup& setup)
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
+  domain_.steps = {&model.medium, dt_s_, setup.time_order};
   domain_.split = split_faces(model);
   for (auto& face : domain_.split) face.behind = domain_.computed_cell(face.behind);
   domain_.soft = solver::soft_cells(domain_, model);

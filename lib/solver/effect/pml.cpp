@@ -23,8 +23,12 @@ constexpr double grazing_offset = 15, grazing_leak = 0.01;
 constexpr double most_damped_a_sweep = 2;
 /// alpha in terms of the source's 2 pi f (Komatitsch & Martin 2007: at most pi f).
 constexpr double alpha_share = 0.5;
-/// Damping of all fields in plates besides the complex stretching, as a share of d.
-constexpr double plate_damping_share = 0.05;
+/// Unit of the damping of all fields where waves would grow besides the complex stretching, as a share of d.
+constexpr double damping_unit = 0.05;
+/// That in plates, as a share of d: as fast as modes of plates grow (theory.md (E14c)).
+constexpr double plate_damping = 0.1;
+/// In thick plates it sets in with this power of the depth, and so deep that waves have gone before.
+constexpr int thick_plate_power = 4;
 /// What waves may grow by in a layer whose rows have a slope: rounding in single precision, 6e-8 of them,
 /// stays below a thousandth.
 constexpr double most_growth = 1e4;
@@ -37,6 +41,9 @@ bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& oth
     if (std::max(one[wave], other[wave]) > reflector_ratio * std::min(one[wave], other[wave])) return true;
   return false;
 }
+
+/// The frequency shift of the stretching, per second.
+double alpha_of(double slow_hz) { return alpha_share * 2 * std::numbers::pi * slow_hz; }
 
 /// The sweeps of a step along axes of the domain.
 std::vector<SweepFraction> sweeps_of(int dimension, int time_order, bool lying) {
@@ -130,7 +137,7 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
     const auto values = rows * (n == 0 ? axis.low + axis.high : layout.padded_nx());
     axis.memory = Buffer<Real>(values);
     clear_and_release(std::as_writable_bytes(std::span(axis.memory.data(), std::size_t(values))));
-    find_plates(n, domain, ranks);
+    find_growing(n, domain, alpha_of(slow_hz) * dt_s, ranks);
   }
 }
 
@@ -153,7 +160,7 @@ auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const std::array<do
   Factors factors;
   // A sweep back in time undoes what one forward would damp: all together are one step.
   const double time = fraction_of(sweep) * times.dt_s;
-  const double alpha = alpha_share * 2 * std::numbers::pi * times.slow_hz;
+  const double alpha = alpha_of(times.slow_hz);
   for (std::int64_t slot = 0; slot < layer.low + layer.high; ++slot) {
     const bool low = slot < layer.low;
     const auto width = inner_width(low ? layer.low : layer.high, settings);
@@ -164,7 +171,9 @@ auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const std::array<do
     // Where fields are prescribed there is nothing to damp.
     factors.loss.push_back(Real(inside < width ? lost * d / sum : 0));
     factors.left.push_back(Real(1 - lost));
-    factors.lost_in_plates.push_back(Real(-std::expm1(-plate_damping_share * d * time)));
+    factors.lost_growing.push_back(Real(-std::expm1(-damping_unit * d * time)));
+    factors.lost_in_thick_plates.push_back(
+        Real(-std::expm1(-damping_unit * d * std::pow(depth, thick_plate_power) * time)));
   }
   return factors;
 }
@@ -180,41 +189,41 @@ std::int64_t Pml<D, Real>::along_edge(int axis, const Index<D>& at) const {
   return number;
 }
 
-/// Marks the solid cells along the edges of an axis that lie between two reflectors: edges that do not
-/// absorb, void, strong interfaces.
+/// Marks the cells along the edges of an axis where waves would grow. `alpha`: by a step.
 template <int D, class Real>
-void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) {
+void Pml<D, Real>::find_growing(int axis, const Domain<D>& domain, double alpha, Ranks* ranks) {
   Index<D> last = layout_.shape();
   for (auto& n : last) --n;
   for (const int side : {0, 1}) {
-    axes_[std::size_t(axis)].plates[std::size_t(side)].assign(
-        std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
+    auto& damping = axes_[std::size_t(axis)].damping[std::size_t(side)];
+    for (auto* const of : {&damping.in_thick_plates, &damping.growing})
+      of->assign(std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
     if ((side ? domain.high_zone : domain.low_zone)[std::size_t(axis)] == 0) continue;
     for (int across = 0; across < D; ++across)
       // A slice one cell thick between mirrors stands for all of the space: no plate.
       if (across != axis && layout_.shape()[std::size_t(across)] > 1)
-        find_plates(axis, side, across, domain, ranks);
+        find_plates(axis, side, across, domain, alpha, ranks);
     if (domain.anisotropic()) find_turning(axis, side, domain);
     if (axis < D - 1 && !domain.curvilinear_rows.empty()) find_slopes(axis, side, domain);
   }
 }
 
-/// The largest damping, in terms of that of plates: at the outer end most is lost.
+/// The largest damping where waves turn, in terms of lost_growing: at the outer end most is lost.
 template <int D, class Real>
 double Pml<D, Real>::most_damped(int axis) const {
   constexpr double most_lost = 0.9;
   double most = std::numeric_limits<double>::infinity();
   for (const auto& factors : axes_[std::size_t(axis)].factors)
-    for (std::size_t slot = 0; slot < factors.lost_in_plates.size(); ++slot)
-      if (factors.lost_in_plates[slot] > 0)
-        most = std::min(most, most_lost / double(factors.lost_in_plates[slot]));
+    for (std::size_t slot = 0; slot < factors.lost_growing.size(); ++slot)
+      if (factors.lost_growing[slot] > 0)
+        most = std::min(most, most_lost / double(factors.lost_growing[slot]));
   return most;
 }
 
 /// Marks cells along an edge beyond which rows keep a slope: in row coordinates all waves turn there.
 template <int D, class Real>
 void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
-  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+  auto& of_edge = axes_[std::size_t(axis)].damping[std::size_t(side)].growing;
   const double most = most_damped(axis), damped = axes_[std::size_t(axis)].damped[std::size_t(side)];
   const auto zone = (side ? domain.high_zone : domain.low_zone)[std::size_t(axis)];
   Grid<D> edge = domain.grid;
@@ -228,16 +237,16 @@ void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
     const double slope = std::abs(corner_depth(domain, next) - corner_depth(domain, at));
     const double courant = domain.courant(at, axis, domain.impedance(wave_s)(at) > 0 ? 1 : 0);
     const double turning = damping_of_slope(slope, damped / courant);
-    auto& plate = plates[std::size_t(along_edge(axis, at))];
-    plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));
+    auto& of_cell = of_edge[std::size_t(along_edge(axis, at))];
+    of_cell = std::max(of_cell, Real(std::min(turning / damping_unit, most)));
   }
 }
 
 /// Marks cells along an edge whose waves would grow in the layer by the damping that they need (V6), in terms
-/// of that of plates.
+/// of lost_growing.
 template <int D, class Real>
 void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
-  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+  auto& of_edge = axes_[std::size_t(axis)].damping[std::size_t(side)].growing;
   const double most = most_damped(axis);
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
@@ -247,16 +256,18 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
     at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;
     if (domain.impedance(wave_s)(at) == 0) continue;
     const double turning = turning_of(domain, at);
-    auto& plate = plates[std::size_t(along_edge(axis, at))];
-    plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));
+    auto& of_cell = of_edge[std::size_t(along_edge(axis, at))];
+    of_cell = std::max(of_cell, Real(std::min(turning / damping_unit, most)));
   }
 }
 
-/// Marks the solid cells between two reflectors along one other axis, `across`, at one side of an axis. Along
-/// z it is collective.
+/// Marks the solid cells between two reflectors (edges that do not absorb, void, strong interfaces) along one
+/// other axis, `across`, at one side of an axis. A plate is thick if S takes at least 1/alpha across it.
+/// Along z it is collective.
 template <int D, class Real>
-void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks) {
-  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain, double alpha,
+                               Ranks* ranks) {
+  auto& damping = axes_[std::size_t(axis)].damping[std::size_t(side)];
   const bool shared_out = ranks && across == D - 1;
   const int other = D == 2 ? axis : 3 - axis - across;  // in 2-D there is none
   const std::int64_t runs = D == 2 ? 1 : layout_.shape()[std::size_t(other)];
@@ -269,35 +280,46 @@ void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& 
   };
   const IndexRange mine =
       shared_out ? domain.own_and_other_cells() : IndexRange{0, layout_.shape()[std::size_t(across)]};
-  std::vector<double> impedances;  // [cell][run][wave]
+  constexpr std::int64_t values = 3;  // of a cell: impedances of P and S, steps that S takes across it
+  std::vector<double> found;          // [cell][run][value]
   for (auto cell = mine.first; cell < mine.last; ++cell)
-    for (std::int64_t run = 0; run < runs; ++run)
-      for (const Wave wave : {wave_p, wave_s}) impedances.push_back(domain.impedance(wave)(place(run, cell)));
-  if (shared_out) impedances = allgather(ranks, impedances);
-  const std::int64_t cells = std::int64_t(impedances.size()) / (2 * runs);
+    for (std::int64_t run = 0; run < runs; ++run) {
+      const auto at = place(run, cell);
+      const double of_s = domain.impedance(wave_s)(at),
+                   courant = of_s > 0 ? domain.courant(at, across, 1) : 0;
+      found.insert(found.end(), {domain.impedance(wave_p)(at), of_s, courant > 0 ? 1 / courant : 0});
+    }
+  if (shared_out) found = allgather(ranks, found);
+  const std::int64_t cells = std::int64_t(found.size()) / (values * runs);
   // Those gathered begin with the first row that any rank has.
   const std::int64_t held = domain.grid.first[std::size_t(across)];
   const std::int64_t before =
       shared_out ? held - allgather(ranks, std::vector{held + mine.first}).front() : 0;
   const auto& laws = domain.whole_edges[across];
   for (std::int64_t run = 0; run < runs; ++run) {
+    const auto of = [&](std::int64_t cell) { return &found[std::size_t(values * (cell * runs + run))]; };
     const auto z = [&](std::int64_t cell) {
-      const auto first = std::size_t(2 * (cell * runs + run));
-      return std::array<double, 2>{impedances[first], impedances[first + 1]};
+      return std::array<double, 2>{of(cell)[wave_p], of(cell)[wave_s]};
     };
+    double steps = 0;
+    // Between two mirrors rock is a part of a space without end.
+    const bool mirrored = laws[0] == EdgeLaw::mirror && laws[1] == EdgeLaw::mirror;
     bool begins_at_reflector = laws[0] != EdgeLaw::absorbing;
     for (std::int64_t begin = 0, cell = 0; cell < cells; ++cell) {
+      steps += of(cell)[2];
       const bool ends = cell + 1 == cells,
                  reflector = ends ? laws[1] != EdgeLaw::absorbing : reflects(z(cell), z(cell + 1));
       if (!ends && !reflector) continue;
-      if (begins_at_reflector && reflector)
+      if (begins_at_reflector && reflector && !(mirrored && begin == 0 && ends))
         for (std::int64_t inside = begin; inside <= cell; ++inside) {
           const auto here = inside - before;
-          if (z(inside)[wave_s] > 0 && here >= 0 && here < layout_.shape()[std::size_t(across)])
-            plates[std::size_t(along_edge(axis, place(run, here)))] = 1;
+          if (z(inside)[wave_s] == 0 || here < 0 || here >= layout_.shape()[std::size_t(across)]) continue;
+          auto& plate = alpha * steps >= 1 ? damping.in_thick_plates : damping.growing;
+          plate[std::size_t(along_edge(axis, place(run, here)))] = Real(plate_damping / damping_unit);
         }
       begins_at_reflector = reflector;
       begin = cell + 1;
+      steps = 0;
     }
   }
 }
@@ -359,21 +381,20 @@ void Pml<D, Real>::filter(const SweptCells<D, Real>& swept) {
   const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row, swept.cells.first);
   const auto n = swept.cells.count();
   const bool begins = begins_pair(swept.time, swept.fraction);
-  // Plates of this row, or for an axis across of its cells.
+  // Of this row, or for an axis across of its cells.
   const auto& layer = axes_[std::size_t(swept.axis)];
   const auto cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : swept.cells.first;
-  const Real* const plates = layer.plates[cell < layer.low ? 0 : 1].data() +
-                             along_edge(swept.axis, swept.row) +
-                             (swept.axis > 0 ? swept.cells.first - swept.row[0] : 0);
+  const auto damping = layer.damping[cell < layer.low ? 0 : 1].from(
+      along_edge(swept.axis, swept.row) + (swept.axis > 0 ? swept.cells.first - swept.row[0] : 0));
   const Real* before = swept.before;
   for (const int row : swept.field_rows) {
     Real *const u = swept.now + row * swept.pitch, *const phi = memory + row * memory_pitch;
     if (begins)
       kernels_.collect(n, before, u, phi);
     else if (swept.axis > 0)
-      kernels_.damp_across(n, factors, plates, before, u, phi);
+      kernels_.damp_across(n, factors, damping, before, u, phi);
     else
-      kernels_.damp_along(n, factors, *plates, before, u, phi);
+      kernels_.damp_along(n, factors, damping, before, u, phi);
     before += swept.before_pitch;
   }
 }

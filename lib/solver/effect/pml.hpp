@@ -59,19 +59,27 @@ class Pml : public Effect<D, Real> {
 
  private:
   /// The factors of one sweep, by slot: the factor of the memory in what is subtracted and its decay over
-  /// half the sweep, and the loss of fields in plates over all of it.
+  /// half the sweep, and what fields lose in thick plates and elsewhere where waves would grow over all of
+  /// it.
   struct Factors {
-    std::vector<Real> loss, left, lost_in_plates;
+    std::vector<Real> loss, left, lost_in_thick_plates, lost_growing;
     PmlFactors<Real> from(std::int64_t slot) const {
-      return {loss.data() + slot, left.data() + slot, lost_in_plates.data() + slot};
+      return {loss.data() + slot, left.data() + slot, lost_in_thick_plates.data() + slot,
+              lost_growing.data() + slot};
+    }
+  };
+  /// Along the edge: how much is lost in thick plates, and elsewhere where waves would grow; else 0.
+  struct Damping {
+    std::vector<Real> in_thick_plates, growing;
+    PmlDamping<Real> from(std::int64_t cell) const {
+      return {in_thick_plates.data() + cell, growing.data() + cell};
     }
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
     std::vector<Factors> factors;  // [sweep of the step], slots: low zone, then high zone, by cells
     Buffer<Real> memory;
-    /// Low and high zone, along the edge: 1 in plates, more where waves turn back, else 0.
-    std::array<std::vector<Real>, 2> plates;
+    std::array<Damping, 2> damping;  // low and high zone
     /// The integrals of d over both zones in cells by steps: over a Courant number, of d/c.
     std::array<double, 2> damped{};
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
@@ -98,8 +106,8 @@ class Pml : public Effect<D, Real> {
   Factors make_factors(int axis, std::size_t sweep, const std::array<double, 2>& largest, const Times& times,
                        const PmlSettings& settings) const;
   std::int64_t along_edge(int axis, const Index<D>& at) const;
-  void find_plates(int axis, const Domain<D>& domain, Ranks* ranks);
-  void find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks);
+  void find_growing(int axis, const Domain<D>& domain, double alpha, Ranks* ranks);
+  void find_plates(int axis, int side, int across, const Domain<D>& domain, double alpha, Ranks* ranks);
   void find_turning(int axis, int side, const Domain<D>& domain);
   void find_slopes(int axis, int side, const Domain<D>& domain);
   double most_damped(int axis) const;

@@ -66,7 +66,14 @@ struct SweptRows {
 /// Coefficients of the PML (Pml), one value for all cells or one per cell.
 template <class Real>
 struct PmlFactors {
-  const Real *loss, *left, *lost_in_plates;
+  const Real *loss, *left, *lost_in_thick_plates, *lost_growing;
+};
+
+/// What all fields lose in the PML, by cell or of all cells: in terms of lost_in_thick_plates and of
+/// lost_growing.
+template <class Real>
+struct PmlDamping {
+  const Real *in_thick_plates, *growing;
 };
 
 /// Inner loops of a sweep at and between the faces of n neighbouring cells of one row, see Kernels. `lo` and
@@ -225,14 +232,13 @@ template <class Real>
 struct PmlKernels {
   /// phi += u - before.
   void (*collect)(std::int64_t n, const Real* before, const Real* u, Real* phi);
-  /// Does phi += u - before, then u -= loss phi and the damping in plates, then phi *= left. Factors are by
-  /// cell; `plate` is the damping in plates of all cells, in terms of lost_in_plates (0: no plate).
-  void (*damp_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* u,
-                     Real* phi);
-  /// Does what damp_along does with the same factors for all cells and the damping in plates by cell, in
-  /// terms of lost_in_plates (0: no plate).
-  void (*damp_across)(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
-                      Real* u, Real* phi);
+  /// Does phi += u - before, then u -= loss phi and the damping of all fields, then phi *= left: factors by
+  /// cell and one damping of all.
+  void (*damp_along)(std::int64_t n, const PmlFactors<Real>& by_cell, const PmlDamping<Real>& of_all,
+                     const Real* before, Real* u, Real* phi);
+  /// Does what damp_along does with the same factors for all cells and the damping by cell.
+  void (*damp_across)(std::int64_t n, const PmlFactors<Real>& of_all, const PmlDamping<Real>& by_cell,
+                      const Real* before, Real* u, Real* phi);
   /// u -= loss phi; phi *= left: factors by cell, then the same for all.
   void (*prepare_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real* u, Real* phi);
   void (*prepare_across)(std::int64_t n, const PmlFactors<Real>& of_all, Real* u, Real* phi);

@@ -172,29 +172,31 @@ void collect(std::int64_t n, const Real* __restrict before, const Real* __restri
 }
 
 template <bool Along, class Real>
-void damp(std::int64_t n, const PmlFactors<Real>& factors, Real plate, const Real* plates,
+void damp(std::int64_t n, const PmlFactors<Real>& factors, const PmlDamping<Real>& damping,
           const Real* __restrict before, Real* __restrict u, Real* __restrict phi) {
-  const Real *loss = factors.loss, *left = factors.left, *lost = factors.lost_in_plates;
+  const Real *loss = factors.loss, *left = factors.left, *in_thick_plates = factors.lost_in_thick_plates,
+             *growing = factors.lost_growing;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const std::int64_t f = Along ? i : 0;
-    const Real in_plate = Along ? plate : plates[i];
+    const std::int64_t of = Along ? 0 : i;
     const Real all = phi[i] + (u[i] - before[i]);
-    u[i] = (u[i] - loss[f] * all) * (1 - in_plate * lost[f]);
+    u[i] = (u[i] - loss[f] * all) * (1 - damping.growing[of] * growing[f]) *
+           (1 - damping.in_thick_plates[of] * in_thick_plates[f]);
     phi[i] = left[f] * all;
   }
 }
 
 template <class Real>
-void damp_along(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* u,
-                Real* phi) {
-  damp<true, Real>(n, by_cell, plate, nullptr, before, u, phi);
+void damp_along(std::int64_t n, const PmlFactors<Real>& by_cell, const PmlDamping<Real>& of_all,
+                const Real* before, Real* u, Real* phi) {
+  damp<true, Real>(n, by_cell, of_all, before, u, phi);
 }
 
 template <class Real>
-void damp_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
-                 Real* u, Real* phi) {
-  damp<false, Real>(n, of_all, Real(0), plates, before, u, phi);
+void damp_across(std::int64_t n, const PmlFactors<Real>& of_all, const PmlDamping<Real>& by_cell,
+                 const Real* before, Real* u, Real* phi) {
+  damp<false, Real>(n, of_all, by_cell, before, u, phi);
 }
 
 template <bool Along, class Real>
