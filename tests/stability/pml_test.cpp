@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 
 #include "lab.hpp"
@@ -181,7 +182,10 @@ TEST_P(Pml, StaysBoundedWithSlippingCellsOnAllSides) {
 // Proves (E14c).
 TEST(PmlBesideSoftLayers, StaysBoundedForThousandsOfSteps) {
   const ThreadLimit one_thread(1);
-  for (unsigned seed = 1; seed <= (long_form() ? 60U : 3U); ++seed) {
+  // Those of the short form would grow within 1500 steps if thin plates were damped as thick ones are.
+  std::vector<unsigned> seeds{17, 26, 32};
+  if (long_form()) seeds.resize(60), std::iota(seeds.begin(), seeds.end(), 1U);
+  for (const unsigned seed : seeds) {
     // Water beside soft layers: by a fifth in 10 000 steps (docs/theory/sources.md).
     if (seed == 35 || seed == 42) continue;
     SCOPED_TRACE(seed);

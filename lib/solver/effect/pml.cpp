@@ -27,7 +27,8 @@ constexpr double alpha_share = 0.5;
 constexpr double damping_unit = 0.05;
 /// That in plates, as a share of d: as fast as modes of plates grow (theory.md (E14c)).
 constexpr double plate_damping = 0.1;
-/// In thick plates it sets in with this power of the depth, and so deep that waves have gone before.
+/// In thick plates it sets in with this power of the depth, so deep that waves have gone before: the largest
+/// one tried that lets nothing grow (theory/sources.md).
 constexpr int thick_plate_power = 4;
 /// What waves may grow by in a layer whose rows have a slope: rounding in single precision, 6e-8 of them,
 /// stays below a thousandth.
@@ -189,7 +190,7 @@ std::int64_t Pml<D, Real>::along_edge(int axis, const Index<D>& at) const {
   return number;
 }
 
-/// Marks the cells along the edges of an axis where waves would grow. `alpha`: by a step.
+/// Marks the cells along the edges of an axis where waves would grow. `alpha`: in a step.
 template <int D, class Real>
 void Pml<D, Real>::find_growing(int axis, const Domain<D>& domain, double alpha, Ranks* ranks) {
   Index<D> last = layout_.shape();
@@ -381,7 +382,7 @@ void Pml<D, Real>::filter(const SweptCells<D, Real>& swept) {
   const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row, swept.cells.first);
   const auto n = swept.cells.count();
   const bool begins = begins_pair(swept.time, swept.fraction);
-  // Of this row, or for an axis across of its cells.
+  // The damping of this row, or for an axis across that of its cells.
   const auto& layer = axes_[std::size_t(swept.axis)];
   const auto cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : swept.cells.first;
   const auto damping = layer.damping[cell < layer.low ? 0 : 1].from(
