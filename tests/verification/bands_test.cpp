@@ -90,8 +90,8 @@ TEST(Bands, OfMudBelowWaterGiveItsExactTraces) {
   EXPECT_LT(difference(in_bands(stack.scene(), {{0, 1}, {60, 4}}), stack.exact().front()), 0.01);
 }
 
-/// Absorbing zones of bands have fewer cells where their time step is short. Edges far from the line tell what
-/// those near it send back from the error of the cells.
+/// Absorbing zones of bands have fewer cells where their time step is short. Edges far from the line tell
+/// what those near it send back from the error of the cells.
 TEST(Bands, SendBackLessAtTheirEdgesThanCellsOfOneSize) {
   const auto sent_back = [](const std::vector<Band>& bands) {
     auto far = muddy_floor(), near = far;
