@@ -27,9 +27,6 @@ struct Release {
 template <class Thing>
 using Owned = std::unique_ptr<Thing, Release>;
 
-/// Has a text been shaped, so that no thread looks for typefaces any more?
-std::atomic<bool> typefaces_found = false;
-
 /// The text as one line of shaped glyphs.
 Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold) {
   expect_room();
@@ -55,10 +52,10 @@ Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold)
 }  // namespace
 
 void expect_room() {
-  // Typefaces take some 36 MiB of addresses; three threads that look for them, until the first text is
-  // shaped, a stack of 8 MiB each, and the C library 128 MiB for the heap of each, half of which it gives
-  // back.
-  const std::size_t room = std::size_t(typefaces_found ? 36 : 36 + 3 * (8 + 128)) << 20;
+  // Typefaces take some 36 MiB of addresses; three threads that look for them (for bold ones and for those of
+  // other scripts later on, too) a stack of 8 MiB each, and the C library 128 MiB for the heap of each, half
+  // of which it gives back.
+  constexpr std::size_t room = std::size_t(36 + 3 * (8 + 128)) << 20;
   // Where it was before, if that is free: emulators of processors keep tables of all addresses they ever
   // gave.
   static std::atomic<void*> before = nullptr;
@@ -76,7 +73,6 @@ void draw_text(_cairo* drawing, const std::string& text, double size_pt, bool bo
 double text_width(const std::string& text, double size_pt, bool bold) {
   int width = 0;
   pango_layout_get_size(layout_of(text, size_pt, bold).get(), &width, nullptr);
-  typefaces_found = true;
   return double(width) / PANGO_SCALE;
 }
 
