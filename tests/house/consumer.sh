@@ -21,7 +21,8 @@ fi
 # The same by pkg-config, for who has no CMake.
 PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name slipwave.pc)")
 export PKG_CONFIG_PATH
-words=$(pkg-config --cflags --libs slipwave)
+# All of the library, so that what the project does not call is linked, too.
+words=$(pkg-config --cflags --libs slipwave | sed 's/-lslipwave/-Wl,--whole-archive & -Wl,--no-whole-archive/')
 # shellcheck disable=SC2086
 "$3" -std=c++20 -Wall -Wextra -Werror "$work/project/echo.cpp" $words -o "$work/build/echo-by-pkg-config" >"$work/said" 2>&1 ||
   { cat "$work/said"; echo 'the project does not build by pkg-config'; exit 1; }
