@@ -42,9 +42,12 @@ std::vector<Point<D>> make_half_of_all_directions() {
       all.push_back({std::sin(angle), std::cos(angle)});
     }
   } else {
-    for (int ring = 0; ring <= rings; ++ring)
+    // The last ring is as close to the horizontal as in 2-D: there tilted rock has waves that turn.
+    for (int ring = 0; ring <= rings + 1; ++ring)
       for (int k = 0; k < (ring == 0 ? 1 : around); ++k) {
-        const double angle = ring * std::numbers::pi / 2 / rings, about = k * 2 * std::numbers::pi / around;
+        const double angle = ring <= rings ? ring * std::numbers::pi / 2 / rings
+                                           : std::numbers::pi / 2 - std::numbers::pi / half_circle,
+                     about = k * 2 * std::numbers::pi / around;
         all.push_back(
             {std::sin(angle) * std::cos(about), std::sin(angle) * std::sin(about), std::cos(angle)});
       }
