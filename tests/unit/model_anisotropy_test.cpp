@@ -420,6 +420,11 @@ TEST(BackwardGroupVelocity, InSpaceIsThatOfThePlanesOfSymmetry) {
     EXPECT_GT(backward_group_velocity(elasticity_of<3>(dipping), 2 * axis),
               backward_group_velocity(elasticity_of<2>(dipping), axis) - 1e-9);
   EXPECT_EQ(backward_group_velocity(upright_elasticity<3>(rock), 1), 0);
+  // Of this rock only waves within a few degrees of the horizontal turn.
+  const Material stiff{3600, 1900, 2450, 0.15, 0.1, -15};
+  const double in_plane = backward_group_velocity(elasticity_of<2>(stiff), 1);
+  EXPECT_GT(in_plane, 1e-3);
+  EXPECT_GT(backward_group_velocity(elasticity_of<3>(stiff), 2), in_plane - 1e-9);
 }
 
 // Proves (O5).
