@@ -26,7 +26,7 @@ Index<D> shape_for(Cut cut, std::int64_t rows) {
   if constexpr (D == 2)
     return long_form() ? Index<2>{150, 200} : cut == Cut::columns ? Index<2>{60, 44} : Index<2>{40, rows};
   if constexpr (D == 3)
-    return long_form()           ? Index<3>{86, 12, 34}
+    return long_form()           ? Index<3>{86, 12, cut == Cut::columns ? 34 : rows}
            : cut == Cut::columns ? Index<3>{32, 10, 18}
                                  : Index<3>{18, 12, rows};
 }
