@@ -13,7 +13,7 @@
 namespace slipwave {
 
 /// The format of what a checkpoint file holds; another one is refused.
-inline constexpr std::uint64_t checkpoint_format = 1;
+inline constexpr std::uint64_t checkpoint_format = 2;
 
 /// Returns where the checkpoint before the newest is kept: "C.1".
 std::string older_checkpoint(const std::string& path);

@@ -149,11 +149,11 @@ want() {
             need("advance_curvilinear_across<" of, 26 * d)
           }
         }
-        need("collect<" real ">", 2)
-        # Along and across.
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"
-          need("damp_" (way ? "along" : "across") "<" real ">", 8); need("prepare<" along ", " real ">", 3)
+          of = "<" along ", " real ">"
+          need("damp<" along ", false, " real ">", 10); need("damp<" along ", true, " real ">", 14)
+          need("prepare" of, 2)
         }
       }
       if (!bad) printf "%s: %d kernels on vectors of %d bits\n", level, kernels, width

@@ -93,11 +93,6 @@ class FittedAnisotropyInSpace : public ::testing::TestWithParam<int> {
     make_anisotropic(made, seed, block, tilts);
     return made;
   }
-  static EdgeLaws<3> all_edges(EdgeLaw law) {
-    EdgeLaws<3> edges;
-    for (int axis = 0; axis < 3; ++axis) edges[axis] = {law, law};
-    return edges;
-  }
   const ThreadLimit one_thread_{1};
   const int steps_ = long_form() ? 200 : 30;
 };
@@ -111,19 +106,19 @@ TEST_P(FittedAnisotropyInSpace, NeverAddsEnergy) {
         const auto edge = seed % 2 ? EdgeLaw::free : EdgeLaw::rigid;
         SCOPED_TRACE("seed " + std::to_string(seed) + " block " + std::to_string(block) +
                      (tilts ? " tilted" : " upright"));
-        expect_no_growth<double>(medium(seed, block, tilts), all_edges(edge),
+        expect_no_growth<double>(medium(seed, block, tilts), all_edges<3>(edge),
                                  {order, 2, seed % 3 == 0 ? 0.6 : 1}, steps_, 0);
         ++seed;
       }
   if (long_form() && GetParam() == 0)
-    expect_no_growth<double>(medium(7, 5, true), all_edges(EdgeLaw::free), {5}, steps_, 20000);
+    expect_no_growth<double>(medium(7, 5, true), all_edges<3>(EdgeLaw::free), {5}, steps_, 20000);
 }
 
 // Proves (F16).
 TEST_P(FittedAnisotropyInSpace, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
   for (const int order : {5, 7}) {
-    expect_no_growth<float>(medium(5, 5, true), all_edges(EdgeLaw::free), {order}, steps_, 0);
-    expect_no_growth<double>(medium(6, 5, true), all_edges(EdgeLaw::free), {order, 4, 2}, steps_ / 2, 0);
+    expect_no_growth<float>(medium(5, 5, true), all_edges<3>(EdgeLaw::free), {order}, steps_, 0);
+    expect_no_growth<double>(medium(6, 5, true), all_edges<3>(EdgeLaw::free), {order, 4, 2}, steps_ / 2, 0);
   }
 }
 
@@ -132,17 +127,15 @@ TEST_P(FittedAnisotropyInSpace, OfAnyStiffnessNeverAddsEnergy) {
   for (const auto& [block, order] : {std::pair{1, 5}, {5, 7}, {100, 5}}) {
     auto of_any = medium(1, 1, false);
     put_any_stiffness(of_any, unsigned(block), block);
-    expect_no_growth<double>(of_any, all_edges(block == 5 ? EdgeLaw::rigid : EdgeLaw::free), {order}, steps_,
-                             0);
+    expect_no_growth<double>(of_any, all_edges<3>(block == 5 ? EdgeLaw::rigid : EdgeLaw::free), {order},
+                             steps_, 0);
   }
 }
 
 // Proves (F16).
 TEST_P(FittedAnisotropyInSpace, StaysBoundedInThePml) {
-  Numbers numbers{5};
-  numbers.zone_cells = 6, numbers.pml_hz = 30;
-  auto edges = all_edges(EdgeLaw::absorbing);
-  FittedLab<3, double> lab(medium(3, 100, true), edges, numbers);
+  FittedLab<3, double> lab(medium(3, 100, true), all_edges<3>(EdgeLaw::absorbing),
+                           {5, 2, matched_cfl, 6, 30});
   const double begin = lab.energy();
   const int first = long_form() ? 300 : 30;
   for (int n = 0; n < first; ++n) lab.step();

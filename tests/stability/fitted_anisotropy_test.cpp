@@ -119,10 +119,8 @@ TEST_P(FittedAnisotropy, OfAnyStiffnessNeverAddsEnergy) {
 }
 
 TEST_P(FittedAnisotropy, StaysBoundedInThePml) {
-  Numbers numbers{5};
-  numbers.pml_hz = 30;
   FittedLab<2, double> lab(medium(3, 100, true), edges_below(EdgeLaw::absorbing, EdgeLaw::absorbing),
-                           numbers);
+                           {5, 2, matched_cfl, 8, 30});
   const double begin = lab.energy();
   for (int n = 0; n < 300; ++n) lab.step();
   const double early = lab.energy();

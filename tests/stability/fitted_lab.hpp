@@ -15,6 +15,9 @@
 
 namespace slipwave {
 
+/// The largest Courant number at which the PML matches the steps (theory.md (E14d)).
+constexpr double matched_cfl = 0.9;
+
 /// How a medium is shaken.
 struct Numbers {
   int order = 5, time_order = 2;

@@ -140,9 +140,7 @@ TEST_P(FittedPml, StaysBoundedForThousandsOfSteps) {
                                                            {7, EdgeLaw::rigid, 8},
                                                            {7, EdgeLaw::free, 20}};
   for (const auto& [order, top, zone_cells] : share_of(runs, turn_of(GetParam(), fitted_names()))) {
-    Numbers numbers{order};
-    numbers.zone_cells = zone_cells;
-    numbers.pml_hz = 30;
+    const Numbers numbers{order, 2, matched_cfl, zone_cells, 30};
     SCOPED_TRACE("order " + std::to_string(order) + ", top " + std::to_string(int(top)) + ", " +
                  std::to_string(zone_cells) + " cells");
     FittedLab<2, double> lab(medium, edges_below(top, EdgeLaw::absorbing), numbers);

@@ -13,12 +13,6 @@ std::vector<int> orders_tried() {
   return long_form() ? std::vector<int>(std::begin(orders), std::end(orders)) : std::vector<int>{3, 5, 11};
 }
 
-EdgeLaws<2> all_edges(EdgeLaw law) {
-  EdgeLaws<2> edges;
-  for (int axis = 0; axis < 2; ++axis) edges[axis] = {law, law};
-  return edges;
-}
-
 double energy_density(double vp, double vs, double rho, double vx, double vz, double sxx, double szz,
                       double sxz) {
   if (rho == 0) return 0;

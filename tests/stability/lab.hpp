@@ -63,7 +63,12 @@ std::size_t turn_of(const Case& one, const std::vector<Case>& cases) {
 std::vector<int> orders_tried();
 
 /// The same law on all edges.
-EdgeLaws<2> all_edges(EdgeLaw law);
+template <int D = 2>
+EdgeLaws<D> all_edges(EdgeLaw law) {
+  EdgeLaws<D> edges;
+  for (int axis = 0; axis < D; ++axis) edges[axis] = {law, law};
+  return edges;
+}
 
 /// Energy of a cell, J/m3: kinetic and elastic in plane strain; of fluid only the pressure counts.
 double energy_density(double vp, double vs, double rho, double vx, double vz, double sxx, double szz,

@@ -161,7 +161,7 @@ TEST_F(CheckpointFile, OfAnotherFormatOrRunOrNoneIsRefusedByName) {
   later[24] = 7;
   write(path(), later);
   EXPECT_EQ(refusal([&] { RunState run(settings()); }),
-            path() + ": found a checkpoint of format 7, expected 1");
+            path() + ": found a checkpoint of format 7, expected 2");
   write(path(), std::string(5000, 'x'));
   EXPECT_EQ(refusal([&] { RunState run(settings()); }),
             path() + ": is not a checkpoint of sw-shoot, or damaged");

@@ -15,12 +15,22 @@
 namespace slipwave::solver {
 namespace {
 
-/// Growth of d into the layer.
+/// Growth of d into a layer that does not match the steps.
 constexpr int power = 2;
-/// What is left in theory of a wave whose offset is that many times its distance to the edge.
+/// What both edges together give back in theory of a wave whose offset is that many times its distance to
+/// them.
 constexpr double grazing_offset = 15, grazing_leak = 0.01;
 /// Largest d times the length of a sweep: sweep and damping are composed to second order in half of it.
 constexpr double most_damped_a_sweep = 2;
+/// Largest (d + alpha) times the step, Courant number and vs/vp where the damping matches the steps, and what
+/// is kept of recent increments from step to step: with more, or with less of the last, the shortest waves
+/// would grow (theory/sources.md).
+constexpr double most_damped_a_matched_step = 0.8, most_matched_courant = 0.9, most_matched_ratio = 2. / 3,
+                 recent_kept = 0.25;
+/// Their share that is not lost again, with which nothing is gained from waves of two steps a period.
+constexpr double recent_share = (1 + recent_kept) * (1 + recent_kept) / 4;
+/// What speeds and elasticities, that a model has in single precision, may differ by.
+constexpr double rounding = 1e-5;
 /// alpha in terms of the source's 2 pi f (Komatitsch & Martin 2007: at most pi f).
 constexpr double alpha_share = 0.5;
 /// Unit of the damping of all fields where waves would grow besides the complex stretching, as a share of d.
@@ -88,6 +98,17 @@ class BackwardGroupVelocity {
   std::vector<double> of_media_;
 };
 
+/// Whether rock is isotropic as far as single precision tells.
+template <int D>
+bool is_isotropic(const Domain<D>& domain, const Index<D>& at) {
+  if (!domain.anisotropic()) return true;
+  const auto c = elasticity_at(domain, at), of = isotropic<D>(c(3, 3), c(5, 5));
+  for (std::size_t i = 0; i < c.voigt.size(); ++i)
+    for (std::size_t j = 0; j < c.voigt.size(); ++j)
+      if (std::abs(c.voigt[i][j] - of.voigt[i][j]) > rounding * c(3, 3)) return false;
+  return true;
+}
+
 /// The damping of all fields, in terms of d, with which no wave grows by more than most_growth on its way out
 /// through a layer whose rows have a slope (theory.md (F10a)). `damped`: the integral of d/c over the layer,
 /// with c the speed of the slowest wave; infinite where that is not known, so that nothing grows.
@@ -108,6 +129,32 @@ double damping_of_slope(double slope, double damped) {
   return needed;
 }
 
+/// What a sweep does in a cell of the layer: with the increments r of a field, its memory phi and that of
+/// recent increments, the field loses before*phi before the sweep and after*phi + of_increments*r after it;
+/// then
+///   phi = left phi + of_recent recent + of_newest r,   recent = recent_left recent + r - 2 after phi.
+struct Losses {
+  double before, after, of_increments, left, of_recent, of_newest, recent_left;
+  /// Damping and sweep as two flows, the damping solved exactly (theory.md (E14a)); here the memory is that
+  /// just after the sweep, where the decay between both halves is in the factors. `damped`, `shift`: d and
+  /// alpha times the length of the sweep.
+  static Losses split(double damped, double shift) {
+    const double sum = damped + shift, half = std::exp(-sum / 2);
+    const double loss = (1 - half) * damped / sum;
+    return {loss * half, loss * half * half, loss, half * half, 0, 1, 0};
+  }
+  /// As much lost before a sweep as after it, which matches the steps (theory.md (E14d)).
+  static Losses matched(double damped, double shift) {
+    return {damped / 2,
+            damped / 2,
+            0,
+            1 - shift - (1 - recent_share) * damped,
+            recent_share * (1 - shift - recent_kept),
+            1 - recent_share,
+            recent_kept};
+  }
+};
+
 }  // namespace
 
 template <int D, class Real>
@@ -117,64 +164,108 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
       sweeps_(sweeps_of(D, time_order, settings.lying)),
       cells_(domain.grid.size() - domain.model_grid.size()),
       kernels_(pml_kernels<Real>()) {
+  const Times times{dt_s, slow_hz, vp_max, domain.grid.spacing_m};
+  const bool may_match = time_order == 2 && settings.idle_cells == 0 && !settings.lying;
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
     axis.cells = domain.grid.shape[std::size_t(n)];
     axis.low = domain.low_zone[std::size_t(n)];
     axis.high = domain.high_zone[std::size_t(n)];
-    const auto largest = [&](std::int64_t zone) {
-      return largest_damping(inner_width(zone, settings), domain.grid.spacing_m, dt_s, vp_max);
-    };
-    const std::array<double, 2> damping{largest(axis.low), largest(axis.high)};
-    for (std::size_t k = 0; k < sweeps_.size(); ++k)
-      axis.factors.push_back(make_factors(n, k, damping, {dt_s, slow_hz}, settings));
-    for (const int side : {0, 1})
-      axis.damped[std::size_t(side)] = damping[std::size_t(side)] * dt_s / (power + 1) *
-                                       double(inner_width(side ? axis.high : axis.low, settings));
+    set_factors(n, {false, false}, times, settings);
     std::int64_t rows = layout.rows();
     if (n > 0) rows *= axis.low + axis.high;
     for (int other = 1; other < D; ++other)
       if (other != n) rows *= layout.shape()[std::size_t(other)];
     const auto values = rows * (n == 0 ? axis.low + axis.high : layout.padded_nx());
-    axis.memory = Buffer<Real>(values);
-    clear_and_release(std::as_writable_bytes(std::span(axis.memory.data(), std::size_t(values))));
+    const auto reserve = [&](typename Axis::Memory kind) {
+      auto& memory = axis.memory[kind];
+      memory = Buffer<Real>(values);
+      clear_and_release(std::as_writable_bytes(std::span(memory.data(), std::size_t(values))));
+    };
+    reserve(Axis::lost);
+    if (n == sweeps_.front().axis) reserve(Axis::held);
     find_growing(n, domain, alpha_of(slow_hz) * dt_s, ranks);
+    const auto match = may_match ? sides_that_match(n, domain, ranks) : std::array<bool, 2>{};
+    if (!match[0] && !match[1]) continue;
+    set_factors(n, match, times, settings);
+    reserve(Axis::recent);
   }
 }
 
-/// The largest d, per second, of a layer of `width` cells: d integrated over the layer and back takes a P
-/// wave that grazes down to what may leak, unless sweeps are too long for that.
+/// At `depth`, from 0 to 1 in the layer.
 template <int D, class Real>
-double Pml<D, Real>::largest_damping(std::int64_t width, double h, double dt_s, double vp_max) const {
-  const double length = double(width) * h, cosine = 2 / grazing_offset;
-  double longest = 0;
-  for (std::size_t k = 0; k < sweeps_.size(); ++k)
-    longest = std::max(longest, std::abs(fraction_of(k)) * dt_s);
-  return std::min((power + 1) * vp_max * -std::log(grazing_leak) / (2 * length * cosine),
-                  most_damped_a_sweep / longest);
+double Pml<D, Real>::Profile::at(double depth) const {
+  if (!matched) return outer * std::pow(depth, power);
+  if (depth > 2. / 3) return inner + (outer - inner) * (3 * depth - 2);
+  const double t = std::min(3 * depth, 1.);
+  return inner * t * t * t * (10 - 15 * t + 6 * t * t);
 }
 
 template <int D, class Real>
-auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const std::array<double, 2>& largest,
-                                const Times& times, const PmlSettings& settings) const -> Factors {
+double Pml<D, Real>::Profile::mean() const {
+  return matched ? (4 * inner + outer) / 6 : outer / (power + 1);
+}
+
+/// d of a layer of `width` cells: integrated over the layer and back it takes a P wave that grazes down to
+/// what may leak, unless sweeps are too long for that.
+template <int D, class Real>
+auto Pml<D, Real>::profile_of(bool matched, std::int64_t width, const Times& times) const -> Profile {
+  const double length = double(width) * times.spacing_m, cosine = 2 / grazing_offset;
+  const double mean = times.vp_max * -std::log(grazing_leak / 2) / (2 * length * cosine);
+  double longest = 0;
+  for (std::size_t k = 0; k < sweeps_.size(); ++k)
+    longest = std::max(longest, std::abs(fraction_of(k)) * times.dt_s);
+  const double most = most_damped_a_sweep / longest;
+  if (!matched) return {false, 0, std::min((power + 1) * mean, most)};
+  const double even = mean * 6 / 5,
+               most_even = std::max(most_damped_a_matched_step / times.dt_s - alpha_of(times.slow_hz), 0.);
+  if (even <= most_even) return {true, even, even};
+  return {true, most_even, std::clamp(6 * mean - 4 * most_even, most_even, most)};
+}
+
+/// Sets what sweeps along an axis do in its layers, by the sides that match the steps.
+template <int D, class Real>
+void Pml<D, Real>::set_factors(int axis, const std::array<bool, 2>& matched, const Times& times,
+                               const PmlSettings& settings) {
+  auto& layer = axes_[std::size_t(axis)];
+  for (const std::size_t side : {0, 1}) {
+    const auto width = inner_width(side ? layer.high : layer.low, settings);
+    layer.profiles[side] = profile_of(matched[side], width, times);
+    layer.damped[side] = layer.profiles[side].mean() * times.dt_s * double(width);
+  }
+  layer.factors.clear();
+  for (std::size_t k = 0; k < sweeps_.size(); ++k)
+    layer.factors.push_back(make_factors(axis, k, times, settings));
+}
+
+template <int D, class Real>
+auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const Times& times,
+                                const PmlSettings& settings) const -> Factors {
   const auto& layer = axes_[std::size_t(axis)];
   Factors factors;
   // A sweep back in time undoes what one forward would damp: all together are one step.
   const double time = fraction_of(sweep) * times.dt_s;
-  const double alpha = alpha_of(times.slow_hz);
+  const double shift = alpha_of(times.slow_hz) * time;
   for (std::int64_t slot = 0; slot < layer.low + layer.high; ++slot) {
     const bool low = slot < layer.low;
     const auto width = inner_width(low ? layer.low : layer.high, settings);
     const auto inside = low ? layer.low - 1 - slot : slot - layer.low;
     const double depth = std::min((double(inside) + 0.5) / double(width), 1.);
-    const double d = largest[low ? 0 : 1] * std::pow(depth, power), sum = d + alpha;
-    const double lost = -std::expm1(-sum * time / 2);
+    const auto& profile = layer.profiles[low ? 0 : 1];
+    const double damped = profile.at(depth) * time;
+    const auto of = profile.matches(depth) ? Losses::matched(damped, shift) : Losses::split(damped, shift);
     // Where fields are prescribed there is nothing to damp.
-    factors.loss.push_back(Real(inside < width ? lost * d / sum : 0));
-    factors.left.push_back(Real(1 - lost));
-    factors.lost_growing.push_back(Real(-std::expm1(-damping_unit * d * time)));
+    const double damps = inside < width ? 1 : 0;
+    factors.before.push_back(Real(damps * of.before));
+    factors.after.push_back(Real(damps * of.after));
+    factors.of_increments.push_back(Real(damps * of.of_increments));
+    factors.left.push_back(Real(of.left));
+    factors.of_recent.push_back(Real(of.of_recent));
+    factors.of_newest.push_back(Real(of.of_newest));
+    factors.recent_left.push_back(Real(of.recent_left));
+    factors.lost_growing.push_back(Real(-std::expm1(-damping_unit * damped)));
     factors.lost_in_thick_plates.push_back(
-        Real(-std::expm1(-damping_unit * d * std::pow(depth, thick_plate_power) * time)));
+        Real(-std::expm1(-damping_unit * damped * std::pow(depth, thick_plate_power))));
   }
   return factors;
 }
@@ -207,6 +298,51 @@ void Pml<D, Real>::find_growing(int axis, const Domain<D>& domain, double alpha,
     if (domain.anisotropic()) find_turning(axis, side, domain);
     if (axis < D - 1 && !domain.curvilinear_rows.empty()) find_slopes(axis, side, domain);
   }
+}
+
+/// The sides of an axis at which the damping may match the steps: where the layer lies in level rows of one
+/// isotropic rock that continues beyond the other edges, too, and nothing grows there by the speeds of its
+/// waves. Collective.
+template <int D, class Real>
+std::array<bool, 2> Pml<D, Real>::sides_that_match(int axis, const Domain<D>& domain, Ranks* ranks) const {
+  const auto& layer = axes_[std::size_t(axis)];
+  // Each band has a layer of its own beside it.
+  bool may = axis == D - 1 || !(domain.subdomain.ends_at_band(0) || domain.subdomain.ends_at_band(1));
+  for (int other = 0; other < D; ++other)
+    for (const EdgeLaw law : domain.whole_edges[other])
+      may = may && (other == axis || law == EdgeLaw::absorbing || law == EdgeLaw::mirror);
+  if (!may) return {};
+  // Courant numbers by axis, the impedances, and whether it is more than that.
+  using Rock = std::array<double, D + 3>;
+  const auto rock_at = [&](const Index<D>& at) {
+    Rock rock{};
+    for (int along = 0; along < D; ++along) rock[std::size_t(along)] = domain.courant(at, along, 0);
+    rock[D] = domain.impedance(wave_p)(at), rock[D + 1] = domain.impedance(wave_s)(at);
+    rock[D + 2] = domain.curvilinear(at[D - 1]) || !is_isotropic(domain, at);
+    return rock;
+  };
+  const auto fits = [](const Rock& rock) {
+    return std::all_of(rock.begin(), rock.begin() + D,
+                       [](double courant) { return courant <= most_matched_courant * (1 + rounding); }) &&
+           rock[D + 1] <= rock[D] * most_matched_ratio && rock[D + 2] == 0;
+  };
+  std::array<bool, 2> match{};
+  for (const std::size_t side : {0, 1}) {
+    std::vector<Rock> rocks;  // up to the first that differs
+    Grid<D> edge = domain.grid;
+    edge.shape[std::size_t(axis)] = 1;
+    // What no layer continues is another rank's.
+    if ((side ? layer.high : layer.low) > 0)
+      for (std::int64_t n = 0; n < edge.size() && rocks.size() < 2; ++n) {
+        auto at = edge.index(n);
+        at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;
+        if (const auto rock = rock_at(at); rocks.empty() || rock != rocks.front()) rocks.push_back(rock);
+      }
+    rocks = allgather(ranks, rocks);
+    match[side] = std::all_of(rocks.begin(), rocks.end(),
+                              [&](const Rock& rock) { return fits(rock) && rock == rocks.front(); });
+  }
+  return match;
 }
 
 /// The largest damping where waves turn, in terms of lost_growing: at the outer end most is lost.
@@ -329,9 +465,10 @@ void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& 
 template <int D, class Real>
 void Pml<D, Real>::exchange(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
   for (int n = 0; n + 1 < D; ++n) {
-    auto& memory = axes_[std::size_t(n)].memory;
-    const std::int64_t a_row = memory.size() / layout_.shape()[D - 1];
-    if (a_row > 0) to(memory.data() + rows.first * a_row, rows.count() * a_row);
+    for (auto& memory : axes_[std::size_t(n)].memory) {
+      const std::int64_t a_row = memory.size() / layout_.shape()[D - 1];
+      if (a_row > 0) to(memory.data() + rows.first * a_row, rows.count() * a_row);
+    }
   }
 }
 
@@ -345,8 +482,9 @@ std::array<IndexRange, 2> Pml<D, Real>::filtered(int axis, const Index<D>& line,
 }
 
 template <int D, class Real>
-std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>& line, std::int64_t first) {
-  auto& layer = axes_[std::size_t(axis)];
+std::array<std::int64_t, 2> Pml<D, Real>::place_in_memory(int axis, const Index<D>& line,
+                                                          std::int64_t first) const {
+  const auto& layer = axes_[std::size_t(axis)];
   std::int64_t number = 0;
   for (int other = D - 1; other > 0; --other) {
     const bool own = other == axis;
@@ -354,8 +492,7 @@ std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>&
              (own ? layer.slot(line[std::size_t(other)]) : line[std::size_t(other)]);
   }
   const auto pitch = axis == 0 ? layer.low + layer.high : layout_.padded_nx();
-  return {layer.memory.data() + number * layout_.rows() * pitch + (axis == 0 ? layer.slot(first) : first),
-          pitch};
+  return {number * layout_.rows() * pitch + (axis == 0 ? layer.slot(first) : first), pitch};
 }
 
 template <int D, class Real>
@@ -379,23 +516,31 @@ NextSweep Pml<D, Real>::next(const SweepTime& time, Real fraction) const {
 template <int D, class Real>
 void Pml<D, Real>::filter(const SweptCells<D, Real>& swept) {
   const auto factors = factors_of(swept);
-  const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row, swept.cells.first);
+  const auto [place, memory_pitch] = place_in_memory(swept.axis, swept.row, swept.cells.first);
   const auto n = swept.cells.count();
   const bool begins = begins_pair(swept.time, swept.fraction);
   // The damping of this row, or for an axis across that of its cells.
-  const auto& layer = axes_[std::size_t(swept.axis)];
+  auto& layer = axes_[std::size_t(swept.axis)];
   const auto cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : swept.cells.first;
   const auto damping = layer.damping[cell < layer.low ? 0 : 1].from(
       along_edge(swept.axis, swept.row) + (swept.axis > 0 ? swept.cells.first - swept.row[0] : 0));
+  const bool ends = ends_pair(swept.time, swept.fraction);
+  // A row across needs recent increments where it matches the steps, one along in some of its cells.
+  const bool remembers = swept.axis > 0 ? *factors.recent_left > 0 : layer.memory[Axis::recent].size() > 0;
+  const auto damp = (swept.axis > 0 ? kernels_.damp_across : kernels_.damp_along)[remembers];
   const Real* before = swept.before;
   for (const int row : swept.field_rows) {
-    Real *const u = swept.now + row * swept.pitch, *const phi = memory + row * memory_pitch;
-    if (begins)
-      kernels_.collect(n, before, u, phi);
-    else if (swept.axis > 0)
-      kernels_.damp_across(n, factors, damping, before, u, phi);
-    else
-      kernels_.damp_along(n, factors, damping, before, u, phi);
+    const auto at = place + row * memory_pitch;
+    Real* const u = swept.now + row * swept.pitch;
+    const Real* from = before;
+    if (begins || ends) {
+      Real* const held = layer.memory[Axis::held].data() + at;
+      for (std::int64_t i = 0; i < n; ++i) held[i] = begins ? u[i] - before[i] : before[i] - held[i];
+      from = held;
+    }
+    if (!begins)
+      damp(n, factors, damping, from, u, layer.memory[Axis::lost].data() + at,
+           remembers ? layer.memory[Axis::recent].data() + at : nullptr);
     before += swept.before_pitch;
   }
 }
@@ -403,16 +548,19 @@ void Pml<D, Real>::filter(const SweptCells<D, Real>& swept) {
 template <int D, class Real>
 void Pml<D, Real>::prepare(const SweptCells<D, Real>& swept) {
   const auto factors = factors_of(swept);
-  const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row, swept.cells.first);
+  const auto [place, memory_pitch] = place_in_memory(swept.axis, swept.row, swept.cells.first);
+  auto& memory = axes_[std::size_t(swept.axis)].memory[Axis::lost];
   const auto loop = swept.axis > 0 ? kernels_.prepare_across : kernels_.prepare_along;
   for (const int row : swept.field_rows)
-    loop(swept.cells.count(), factors, swept.now + row * swept.pitch, memory + row * memory_pitch);
+    loop(swept.cells.count(), factors, swept.now + row * swept.pitch,
+         memory.data() + place + row * memory_pitch);
 }
 
 template <int D, class Real>
 std::int64_t Pml<D, Real>::memory_bytes() const {
   std::int64_t values = 0;
-  for (const auto& axis : axes_) values += axis.memory.size();
+  for (const auto& axis : axes_)
+    for (const auto& memory : axis.memory) values += memory.size();
   return values * std::int64_t(sizeof(Real));
 }
 

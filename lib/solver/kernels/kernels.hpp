@@ -66,7 +66,8 @@ struct SweptRows {
 /// Coefficients of the PML (Pml), one value for all cells or one per cell.
 template <class Real>
 struct PmlFactors {
-  const Real *loss, *left, *lost_in_thick_plates, *lost_growing;
+  const Real *before, *after, *of_increments, *left, *of_recent, *of_newest, *recent_left,
+      *lost_in_thick_plates, *lost_growing;
 };
 
 /// What all fields lose in the PML, by cell or of all cells: in terms of lost_in_thick_plates and of
@@ -227,21 +228,21 @@ struct Kernels {
   CurvilinearKernels<Real> curvilinear[2];
 };
 
-/// Loops of the PML over the field u of a row and its memory phi.
+/// Loops of the PML over the field u of a row, its memory phi and that of recent increments alone.
 template <class Real>
 struct PmlKernels {
-  /// phi += u - before.
-  void (*collect)(std::int64_t n, const Real* before, const Real* u, Real* phi);
-  /// Does phi += u - before, then u -= loss phi and the damping of all fields, then phi *= left: factors by
-  /// cell and one damping of all.
-  void (*damp_along)(std::int64_t n, const PmlFactors<Real>& by_cell, const PmlDamping<Real>& of_all,
-                     const Real* before, Real* u, Real* phi);
+  /// With the increments r = u - before: u -= after phi + of_increments r and the damping of all fields, then
+  /// phi = left phi + r: factors by cell and one damping of all. [1] does so with recent increments, phi =
+  /// left phi + of_recent recent + of_newest r, then recent = recent_left recent + r - 2 after phi with the
+  /// phi from before.
+  using Damp = void (*)(std::int64_t n, const PmlFactors<Real>& factors, const PmlDamping<Real>& damping,
+                        const Real* before, Real* u, Real* phi, Real* recent);
+  Damp damp_along[2];
   /// Does what damp_along does with the same factors for all cells and the damping by cell.
-  void (*damp_across)(std::int64_t n, const PmlFactors<Real>& of_all, const PmlDamping<Real>& by_cell,
-                      const Real* before, Real* u, Real* phi);
-  /// u -= loss phi; phi *= left: factors by cell, then the same for all.
-  void (*prepare_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real* u, Real* phi);
-  void (*prepare_across)(std::int64_t n, const PmlFactors<Real>& of_all, Real* u, Real* phi);
+  Damp damp_across[2];
+  /// u -= before phi: factors by cell, then the same for all.
+  void (*prepare_along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real* u, const Real* phi);
+  void (*prepare_across)(std::int64_t n, const PmlFactors<Real>& of_all, Real* u, const Real* phi);
 };
 
 /// Interpolates samples at equal intervals by quintics, at the places place + (first + i) step, counted in

@@ -165,49 +165,35 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
   }
 }
 
-template <class Real>
-void collect(std::int64_t n, const Real* __restrict before, const Real* __restrict u, Real* __restrict phi) {
-#pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) phi[i] += u[i] - before[i];
-}
-
-template <bool Along, class Real>
+template <bool Along, bool Recent, class Real>
 void damp(std::int64_t n, const PmlFactors<Real>& factors, const PmlDamping<Real>& damping,
-          const Real* __restrict before, Real* __restrict u, Real* __restrict phi) {
-  const Real *loss = factors.loss, *left = factors.left, *in_thick_plates = factors.lost_in_thick_plates,
+          const Real* __restrict before, Real* __restrict u, Real* __restrict phi, Real* __restrict recent) {
+  const Real *after = factors.after, *of_increments = factors.of_increments, *left = factors.left,
+             *of_recent = factors.of_recent, *of_newest = factors.of_newest,
+             *recent_left = factors.recent_left, *in_thick_plates = factors.lost_in_thick_plates,
              *growing = factors.lost_growing;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const std::int64_t f = Along ? i : 0;
     const std::int64_t of = Along ? 0 : i;
-    const Real all = phi[i] + (u[i] - before[i]);
-    u[i] = (u[i] - loss[f] * all) * (1 - damping.growing[of] * growing[f]) *
+    const Real old = phi[i], increment = u[i] - before[i];
+    u[i] = (u[i] - after[f] * old - of_increments[f] * increment) * (1 - damping.growing[of] * growing[f]) *
            (1 - damping.in_thick_plates[of] * in_thick_plates[f]);
-    phi[i] = left[f] * all;
+    if constexpr (Recent) {
+      phi[i] = left[f] * old + of_recent[f] * recent[i] + of_newest[f] * increment;
+      recent[i] = recent_left[f] * recent[i] + increment - 2 * after[f] * old;
+    } else {
+      phi[i] = left[f] * old + increment;
+    }
   }
-}
-
-template <class Real>
-void damp_along(std::int64_t n, const PmlFactors<Real>& by_cell, const PmlDamping<Real>& of_all,
-                const Real* before, Real* u, Real* phi) {
-  damp<true, Real>(n, by_cell, of_all, before, u, phi);
-}
-
-template <class Real>
-void damp_across(std::int64_t n, const PmlFactors<Real>& of_all, const PmlDamping<Real>& by_cell,
-                 const Real* before, Real* u, Real* phi) {
-  damp<false, Real>(n, of_all, by_cell, before, u, phi);
 }
 
 template <bool Along, class Real>
-void prepare(std::int64_t n, const PmlFactors<Real>& factors, Real* __restrict u, Real* __restrict phi) {
-  const Real *loss = factors.loss, *left = factors.left;
+void prepare(std::int64_t n, const PmlFactors<Real>& factors, Real* __restrict u,
+             const Real* __restrict phi) {
+  const Real* before = factors.before;
 #pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::int64_t f = Along ? i : 0;
-    u[i] -= loss[f] * phi[i];
-    phi[i] *= left[f];
-  }
+  for (std::int64_t i = 0; i < n; ++i) u[i] -= before[Along ? i : 0] * phi[i];
 }
 
 template <class Real>
@@ -261,14 +247,16 @@ const Kernels<Real>* of_order(int order) {
 }
 
 template <class Real>
-constexpr KernelTables<Real> tables = {
-    of_order<false, Real>,
-    of_order<true, Real>,
-    {collect<Real>, damp_along<Real>, damp_across<Real>, prepare<true, Real>, prepare<false, Real>},
-    interpolate<Real>,
-    SLIPWAVE_SLIP_LEVEL,
-    SLIPWAVE_RELAXATION_LEVEL,
-    SLIPWAVE_SERIES_LEVEL};
+constexpr KernelTables<Real> tables = {of_order<false, Real>,
+                                       of_order<true, Real>,
+                                       {{damp<true, false, Real>, damp<true, true, Real>},
+                                        {damp<false, false, Real>, damp<false, true, Real>},
+                                        prepare<true, Real>,
+                                        prepare<false, Real>},
+                                       interpolate<Real>,
+                                       SLIPWAVE_SLIP_LEVEL,
+                                       SLIPWAVE_RELAXATION_LEVEL,
+                                       SLIPWAVE_SERIES_LEVEL};
 
 }  // namespace
 
