@@ -260,7 +260,12 @@ double backward_group_velocity(const Elasticity<D>& elasticity, int axis) {
     most = found, best = direction;
     return true;
   };
-  for (const auto& direction : half_of_all_directions<D>()) keep_larger(direction);
+  // About this axis: waves across it, whose directions lie closest together there, may turn.
+  for (const auto& about_last : half_of_all_directions<D>()) {
+    Point<D> direction;
+    for (std::size_t n = 0; n < D; ++n) direction[(std::size_t(axis) + 1 + n) % D] = about_last[n];
+    keep_larger(direction);
+  }
   if (most < least_backward) return 0;
   // From the best of these uphill: else rock in a plane and in space would differ by what lies between them.
   for (double step = std::numbers::pi / (2 * rings); step > direction_tolerance;) {

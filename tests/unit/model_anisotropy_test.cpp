@@ -425,6 +425,15 @@ TEST(BackwardGroupVelocity, InSpaceIsThatOfThePlanesOfSymmetry) {
   const double in_plane = backward_group_velocity(elasticity_of<2>(stiff), 1);
   EXPECT_GT(in_plane, 1e-3);
   EXPECT_GT(backward_group_velocity(elasticity_of<3>(stiff), 2), in_plane - 1e-9);
+  // Of any axis it is that of the last, once rock is turned.
+  Material any{3600, 1775, 2450, 0.228, -0.067, -65.7};
+  any.azimuth = 93.6;
+  const auto as_it_is = elasticity_of<3>(any);
+  auto turning = as_it_is;
+  for (const int axis : {1, 0}) {
+    turning = turned<3>(turning, {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}});
+    EXPECT_NEAR(backward_group_velocity(as_it_is, axis), backward_group_velocity(turning, 2), 1e-6) << axis;
+  }
 }
 
 // Proves (O5).
