@@ -156,7 +156,7 @@ class Pml : public ::testing::TestWithParam<std::string> {
 
 }  // namespace
 
-// Proves (E14). Proves (E14d).
+// Proves (E14).
 TEST_P(Pml, StaysBoundedForThousandsOfSteps) {
   for (const double courant : {matched, unmatched})
     for (const int order : share_of(std::vector{3, 5, 7, 11}, turn())) {
@@ -165,8 +165,8 @@ TEST_P(Pml, StaysBoundedForThousandsOfSteps) {
     }
 }
 
-// One rock all round: every side matches the steps, by waves that are much shorter than those of the source,
-// too. Proves (E14d).
+// One rock all round: every side matches the steps. Waves may be much shorter than those of the source.
+// Proves (E14d).
 TEST_P(Pml, StaysBoundedInARockThatHoldsIt) {
   const Material rocks[] = {{5000, 3300, 2700}, {1600, 160, 1700}, {1500, 0, 1000}};
   for (const auto& rock : rocks)

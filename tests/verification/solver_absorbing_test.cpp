@@ -119,8 +119,8 @@ TEST(AbsorbingEdge, TakesUpWavesThatGrazeItWithAnErrorOfSecondOrderInItsCells) {
   for (const std::size_t n : {0, 1}) EXPECT_LT(of_40[n], of_20[n] / 2.5) << n;
 }
 
-// Where it does, what comes back at ten times the distance to the edge is less than half of what should leak
-// at fifteen times. Proves (E14d). Proves (E14b).
+// Where it does, ten times the distance to the edge sends back less than half of what may leak at fifteen.
+// Proves (E14d). Proves (E14b).
 TEST(AbsorbingEdge, TakesUpWavesThatGrazeItWithoutAnErrorOfTheTimeStep) {
   for (const int across : {0, 1}) {
     const auto found = grazing_errors(across, 20, 0.9);
