@@ -372,8 +372,10 @@ void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
     auto next = at;
     ++next[std::size_t(axis)];
     const double slope = std::abs(corner_depth(domain, next) - corner_depth(domain, at));
-    const double courant = domain.courant(at, axis, domain.impedance(wave_s)(at) > 0 ? 1 : 0);
-    const double turning = damping_of_slope(slope, damped / courant);
+    double slowest = domain.courant(at, axis, 0);
+    for (int pair = 1; pair < D && domain.impedance(wave_s)(at) > 0; ++pair)
+      slowest = std::min(slowest, domain.courant(at, axis, pair));
+    const double turning = damping_of_slope(slope, damped / slowest);
     auto& of_cell = of_edge[std::size_t(along_edge(axis, at))];
     of_cell = std::max(of_cell, Real(std::min(turning / damping_unit, most)));
   }
