@@ -2,6 +2,8 @@
 // Source and receiver exchanged: beside and on interfaces and surfaces.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "drawn_scene.hpp"
 
 namespace slipwave::solver::exchange_test {
@@ -88,6 +90,47 @@ TEST(Exchange, BelowVoidHoldsToTheOrderOfTheScheme) {
       for (std::size_t n = 0; n < found.size(); ++n)
         EXPECT_LT(found[n], 0.01) << "seed " << seed << ", " << below_m[n] << " m below"
                                   << (along_x ? ", x" : ", z");
+    }
+  }
+}
+
+/// A moment of rate w moves a point as fast as a force w there strains the place of the moment.
+// Proves (A23a).
+TEST(Exchange, OfMomentsAndStrainsBelowVoidHoldsToTheOrderOfTheScheme) {
+  struct Kind {
+    const char* mechanism;
+    Component strain;
+    double times;
+  };
+  const Kind kinds[] = {{"explosion", Component::div, 1},
+                        {"moment:1,0,0", Component::exx, 1},
+                        {"moment:0,1,0", Component::ezz, 1},
+                        {"moment:0,0,1", Component::exz, 2}};
+  for (const unsigned seed : seeds(1)) {
+    Draw draw(seed);
+    auto scene = two(nothing, draw.rock(25), 30);
+    scene.recording.interval_s = 0.0001;
+    const Point<2> to{70.3, 55.6};
+    // Together, since shear vanishes at the surface, and its errors do not.
+    for (const double below_m : {0.25, draw.between(0.5, 1), draw.between(1, 3)}) {
+      const Point<2> from{40.2, 30 + below_m};
+      std::vector<double> strains, motions;
+      for (const auto& kind : kinds) {
+        scene.recording.components = {kind.strain};
+        shoot_from(scene, to, "force:0.4,1", {from});
+        double sum = 0, before = 0;
+        for (const double rate : traces_of(scene)) {
+          sum += kind.times * scene.recording.interval_s * (rate + std::exchange(before, rate)) / 2;
+          strains.push_back(sum);
+        }
+        scene.recording.components = {Component::vx, Component::vz};
+        shoot_from(scene, from, kind.mechanism, {to});
+        const auto moved = shoot(scene, 1);
+        for (std::size_t n = 0; n < moved.traces[0].samples.size(); ++n)
+          motions.push_back(0.4 * moved.traces[0].samples[n] + moved.traces[1].samples[n]);
+      }
+      // Of first order within a cell of the surface.
+      EXPECT_LT(difference(motions, strains), 0.03) << "seed " << seed << ", " << below_m << " m below";
     }
   }
 }

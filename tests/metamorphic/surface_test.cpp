@@ -143,38 +143,43 @@ TEST(SameGround, InStepsTurnedByARightAngleGivesTheSameTraces) {
   }
 }
 
-/// What differs between a floor of water over rock and the same turned upright, which sweeps pass in another
-/// order, with so many cells in the shortest wave.
-double of_turned_floor(unsigned seed, double cells) {
+/// What differs between ground below void, or below water, and the same turned upright, which sweeps pass in
+/// another order, with so many cells in the shortest wave.
+double of_turned_ground(unsigned seed, bool below_water, double cells) {
   Draw draw(seed);
   const double rho = draw.between(1800, 2400), ratio = draw.between(1.6, 2.2);
   const Rock water{draw.between(1.05, 1.3) * 100 * cells, 0, 1000};
   const Rock rock{ratio * 100 * cells, 100 * cells, rho};
-  const double size = cells / 20, floor = std::round(45 * size);
+  const double size = cells / 20, ground = std::round(45 * size);
   const auto n = std::int64_t(std::round(110 * size));
   std::vector<std::vector<double>> found;
   for (const bool upright : {false, true}) {
-    auto scene =
-        scene_of(n, n, [&](auto i, auto k) { return double(upright ? i : k) < floor ? water : rock; });
-    const auto place = [&](double along, double off) {
-      const double down = floor + off * size;
+    auto scene = scene_of(n, n, [&](auto i, auto k) {
+      return double(upright ? i : k) >= ground ? rock : below_water ? water : nothing;
+    });
+    const auto place = [&](double along, double down) {
+      down = ground + down * size;
       along *= size;
       return upright ? Point<2>{down, along} : Point<2>{along, down};
     };
-    shoot_from(scene, place(25.3, -6.2), "explosion", {place(60, 0), place(75.4, 3), place(85, -4)});
+    shoot_from(scene, place(25.3, below_water ? -6.2 : 6.2), "explosion",
+               {place(60, 0), place(75.4, 3), place(85, below_water ? -4 : 0.6)});
     if (upright) scene.recording.components = {Component::vx, Component::vz};
     found.push_back(traces_of(scene));
   }
   return difference(found[1], found[0]);
 }
 
-// Proves (E11a).
-TEST(SameGround, BelowWaterTurnedByARightAngleDiffersToSecondOrder) {
-  for (const unsigned seed : seeds()) {
-    const double coarse = of_turned_floor(seed, 20), fine = of_turned_floor(seed, 40);
-    EXPECT_LT(coarse, 0.01) << "seed " << seed;
-    EXPECT_GT(std::log2(coarse / fine), 1.7) << "seed " << seed << ": " << coarse << ", " << fine;
-  }
+// Proves (E11a), (A23).
+TEST(SameGround, TurnedByARightAngleDiffersToSecondOrder) {
+  for (const bool below_water : {false, true})
+    for (const unsigned seed : seeds()) {
+      const double coarse = of_turned_ground(seed, below_water, 20),
+                   fine = of_turned_ground(seed, below_water, 40);
+      SCOPED_TRACE(testing::Message() << (below_water ? "below water" : "below void") << ", seed " << seed);
+      EXPECT_LT(coarse, 0.01);
+      EXPECT_GT(std::log2(coarse / fine), 1.7) << coarse << ", " << fine;
+    }
 }
 
 /// A slice one cell thick between mirrors stands for ground that continues along y, and its point source for
@@ -204,6 +209,45 @@ TEST(SameGround, ThatContinuesInSpaceGivesTheTracesOfALineSource) {
   }
 }
 
+/// Ground across an axis in a cube, at the edge of the grid or below so many layers of void. Places are given
+/// by how far they are along both other axes, and how deep.
+struct GroundInSpace {
+  int axis;
+  std::int64_t voids;
+  Scene<3> scene{};
+
+  GroundInSpace(const Rock& rock, int axis_of_it, std::int64_t voids_above, std::int64_t cells)
+      : axis(axis_of_it), voids(voids_above) {
+    Grid<3> grid{{cells, cells, cells}, 1, {0, 0, 0}};
+    grid.shape[std::size_t(axis)] += voids;
+    Medium<3> medium{Field<3>(grid), Field<3>(grid), Field<3>(grid)};
+    for (std::int64_t n = 0; n < grid.size(); ++n) {
+      if (grid.index(n)[std::size_t(axis)] < voids) continue;
+      const auto cell = std::size_t(n);
+      medium.vp[cell] = float(rock.vp), medium.vs[cell] = float(rock.vs), medium.rho[cell] = float(rock.rho);
+    }
+    scene.model.medium = std::move(medium);
+    for (int of = 0; of < 3; ++of) scene.edges[of] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
+    if (voids == 0) scene.edges[axis][0] = EdgeLaw::free;
+    scene.numerics.double_precision = true;
+    scene.numerics.tiling = {2, 16};
+  }
+  Point<3> place(double along, double down) const {
+    Point<3> at{along, along, along};
+    at[std::size_t(axis)] = down + double(voids);
+    return at;
+  }
+  std::vector<double> traces(const Point<3>& source, const std::string& mechanism, double duration_s) {
+    scene.survey.sources = {{source, parse_mechanism<3>(mechanism), parse_wavelet("ricker:100"), 1e6}};
+    const std::array all{Component::vx, Component::vy, Component::vz};
+    scene.recording = {
+        {all[std::size_t(axis)], all[std::size_t((axis + 1) % 3)], all[std::size_t((axis + 2) % 3)]},
+        duration_s,
+        0.0005};
+    return samples_of(shoot(scene, 1));
+  }
+};
+
 TEST(SameGround, InSpaceAsEdgeAndBelowVoidGivesTheSameTraces) {
   for (const unsigned seed : seeds(1, 3))
     for (const int axis : {0, 1, 2}) {
@@ -211,35 +255,32 @@ TEST(SameGround, InSpaceAsEdgeAndBelowVoidGivesTheSameTraces) {
       const Rock rock = draw.rock(10);
       std::vector<std::vector<double>> found;
       for (const std::int64_t voids : {0, 5}) {
-        Grid<3> grid{{20, 20, 20}, 1, {0, 0, 0}};
-        grid.shape[std::size_t(axis)] += voids;
-        Medium<3> medium{Field<3>(grid), Field<3>(grid), Field<3>(grid)};
-        for (std::int64_t n = 0; n < grid.size(); ++n) {
-          if (grid.index(n)[std::size_t(axis)] < voids) continue;
-          const auto cell = std::size_t(n);
-          medium.vp[cell] = float(rock.vp), medium.vs[cell] = float(rock.vs),
-          medium.rho[cell] = float(rock.rho);
-        }
-        Scene<3> scene;
-        scene.model.medium = std::move(medium);
-        for (int of = 0; of < 3; ++of) scene.edges[of] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
-        if (voids == 0) scene.edges[axis][0] = EdgeLaw::free;
-        scene.numerics.double_precision = true;
-        scene.numerics.zone_cells = 6;
-        const auto place = [&](double along, double down) {
-          Point<3> at{along, along, along};
-          at[std::size_t(axis)] = down + double(voids);
-          return at;
-        };
-        scene.survey.sources = {
-            {place(10.3, 0.4), parse_mechanism<3>("force:0.4,-0.3,1"), parse_wavelet("ricker:100"), 1e6}};
-        scene.survey.receivers_m = {place(14, 0), place(17.2, 0.3), place(18, 3)};
-        scene.recording = {{Component::vx, Component::vy, Component::vz}, 0.03, 0.0005};
-        scene.numerics.tiling = {2, 16};
-        found.push_back(samples_of(shoot(scene, 1)));
+        GroundInSpace of(rock, axis, voids, 20);
+        of.scene.numerics.zone_cells = 6;
+        of.scene.survey.receivers_m = {of.place(14, 0), of.place(17.2, 0.3), of.place(18, 3)};
+        found.push_back(of.traces(of.place(10.3, 0.4), "force:0.4,-0.3,1", 0.03));
       }
       EXPECT_LT(difference(found[1], found[0]), rounding) << "seed " << seed << ", axis " << axis;
     }
+}
+
+// Proves (A23).
+TEST(SameGround, InSpaceTurnedByRightAnglesGivesNearlyTheSameTraces) {
+  for (const unsigned seed : seeds(1, 5)) {
+    Draw draw(seed);
+    const Rock rock = draw.rock(40);
+    std::vector<std::vector<double>> found;
+    for (const int axis : {2, 0, 1}) {
+      GroundInSpace of(rock, axis, 5, 24);
+      // No edges absorb, which do so along one axis after the other, too.
+      for (int other = 0; other < 3; ++other) of.scene.edges[other] = {EdgeLaw::mirror, EdgeLaw::mirror};
+      of.scene.survey.receivers_m = {of.place(14, 0), of.place(17.2, 0.3), of.place(19.1, 0.6)};
+      found.push_back(of.traces(of.place(9.3, 12.2), "explosion", 0.04));
+    }
+    // Waves of 40 cells: what is left is of the second order.
+    for (const std::size_t n : {1U, 2U})
+      EXPECT_LT(difference(found[n], found[0]), 0.002) << "seed " << seed << ", axis " << n - 1;
+  }
 }
 
 }  // namespace

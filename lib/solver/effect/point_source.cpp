@@ -7,6 +7,7 @@
 
 #include "acquisition/interpolation.hpp"
 #include "base/instantiate.hpp"
+#include "solver/sweep/surface_errors.hpp"
 
 namespace slipwave::solver {
 
@@ -46,17 +47,19 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   centre_ = cell_at(domain_, source.position_m, side_);
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
-  const int first = Rows::normal_stress(0), stored = Rows::normal_stresses(state_.layout);
-  if (injection.isotropic)
-    add_moment(source, {first, first + stored}, Rows::normal_stress(D - 1),
-               -injection.moment_rate(0, 0) / volume);
+  const int stored = Rows::normal_stresses(state_.layout);
+  if (injection.isotropic) {
+    std::vector<std::array<int, 2>> normal;
+    for (int i = 0; i < stored; ++i) normal.push_back({i, i});
+    add_moment(source, normal, Rows::normal_stress(D - 1), -injection.moment_rate(0, 0) / volume);
+  }
   for (int i = 0; i < D; ++i) {
     add_force(source, i, injection.force[std::size_t(i)], volume);
-    const auto add = [&](int row, int j) {
-      add_moment(source, {row, row + 1}, row, -injection.moment_rate(i, j) / volume);
+    const auto add = [&](int j) {
+      add_moment(source, {{i, j}}, Rows::stress(i, j), -injection.moment_rate(i, j) / volume);
     };
-    if (!injection.isotropic && i < stored) add(Rows::normal_stress(i), i);
-    for (int j = i + 1; j < D && !fluid; ++j) add(Rows::shear_stress(i, j), j);
+    if (!injection.isotropic && i < stored) add(i);
+    for (int j = i + 1; j < D && !fluid; ++j) add(j);
   }
 }
 
@@ -180,10 +183,11 @@ Index<D> PointSource<D, Real>::cell_of_value(const ValueWeight& value) const {
   return cell;
 }
 
-/// Spreads `strength` over cells of all `rows` with the weights of a source in row `like`: smoothly, if the
+/// Spreads `strength` over cells of stresses with the weights of a source in row `like`: smoothly, if the
 /// moment is isotropic or lasts and its rock is large enough.
 template <int D, class Real>
-void PointSource<D, Real>::add_moment(const Source<D>& source, const IndexRange& rows, int like,
+void PointSource<D, Real>::add_moment(const Source<D>& source,
+                                      const std::vector<std::array<int, 2>>& stresses, int like,
                                       double strength) {
   using Rows = FieldRows<D>;
   if (strength == 0) return;
@@ -194,8 +198,12 @@ void PointSource<D, Real>::add_moment(const Source<D>& source, const IndexRange&
     weights = source_weights(state_.layout, domain_, source.position_m, like, side_);
   else
     reach_ = widest_spread(moment_) / 2;
-  for (auto row = rows.first; row < rows.last; ++row)
-    add(weights, Rows::stored(state_.layout, int(row)) - Rows::stored(state_.layout, like), strength);
+  for (const auto& [i, j] : stresses) {
+    add(weights, Rows::stored(state_.layout, Rows::stress(i, j)) - Rows::stored(state_.layout, like),
+        strength);
+    if (domain_.impedance(wave_s)(centre_) > 0)
+      add(moment_corrections(state_.layout, domain_, centre_, weights, i, j), 0, strength);
+  }
 }
 
 template <int D, class Real>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
@@ -54,7 +55,8 @@ class PointSource : public Effect<D, Real> {
   void share(Ranks& ranks);
   void add_force(const Source<D>& source, int axis, double newtons, double volume);
   Index<D> cell_of_value(const ValueWeight& value) const;
-  void add_moment(const Source<D>& source, const IndexRange& rows, int like, double strength);
+  void add_moment(const Source<D>& source, const std::vector<std::array<int, 2>>& stresses, int like,
+                  double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   std::span<const ValueWeight> values_of(std::int64_t row) const;

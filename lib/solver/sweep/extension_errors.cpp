@@ -32,7 +32,7 @@ using AdjointSweeps = std::map<double, Matrix>;
 /// the slopes themselves, and as far as sweeps of these read what is swept.
 class Column {
  public:
-  Column(const SweepsAcross& of, const PairBeside<double>& slopes, const std::array<double, 2>& known,
+  Column(const SweepsAcross& of, const SlopesBeside& slopes, const std::array<double, 2>& known,
          AdjointSweeps& adjoint)
       : of_(&of),
         slopes_(&slopes),
@@ -47,7 +47,8 @@ class Column {
     const auto &z = of.impedance, &c = of.courant;
     const double both = z[0] + z[1];
     bend_ = (z[0] * known[0] - z[1] * known[1]) / both;
-    left_ = traction_share / 2 * (c[1] * z[1] * known[1] - c[0] * z[0] * known[0]);
+    const double share = of.beside_void ? 1 : traction_share;
+    left_ = share / 2 * (c[1] * z[1] * known[1] - c[0] * z[0] * known[0]);
   }
   /// The values that may lie off, and whether there is anything.
   double& off(int n) { return n < 2 * rows ? v(n - rows) : s(n - 3 * rows); }
@@ -56,14 +57,13 @@ class Column {
   /// A whole step, from the middle of what runs along its first axis; where sweeps across end a step, from
   /// before the last one, which the first one of the next step is made together with.
   void step() {
-    const int along = of_->axis == 0 ? of_->of_step[1].axis : 0;
     double together = part_recorded(*of_);
     const auto last = of_->of_step.end() - (together == 0 ? 0 : 1);
     for (auto sweep = of_->of_step.begin(); sweep != last; ++sweep) {
       if (sweep->axis == of_->axis)
         across(sweep->fraction + std::exchange(together, 0));
-      else if (sweep->axis == along)
-        take_away(sweep->fraction);
+      else if (sweep->axis == of_->along)
+        note_v(sweep->fraction), take_away(sweep->fraction);
     }
   }
   /// The part of a step that the sweep across takes by which records leave the state that step() begins with,
@@ -71,6 +71,8 @@ class Column {
   static double part_recorded(const SweepsAcross& of) {
     return of.merges && of.of_step.back().axis == of.axis ? of.of_step.back().fraction : 0;
   }
+  /// The mean of a value of v that sweeps along the face have found.
+  double found_v(int n) const { return found_v_[place(n + rows)]; }
   /// What sweeps along the face leave, which cells with the slopes want sweeps across to give back.
   void take_away(double fraction) {
     for (int n = -held_; n < held_; ++n)
@@ -96,6 +98,9 @@ class Column {
   static std::size_t side(int n) { return n < 0 ? 0 : 1; }
   double& v(int n) { return v_[std::size_t(std::int64_t(held_) + n)]; }
   double& s(int n) { return s_[std::size_t(std::int64_t(held_) + n)]; }
+  void note_v(double fraction) {
+    for (int n = -rows; n < rows; ++n) found_v_[place(n + rows)] += fraction * v(n);
+  }
   double impedance(int n) const { return of_->impedance[side(n)]; }
   double courant(int n) const { return of_->courant[side(n)]; }
   bool empty(int n) const { return impedance(n) == 0; }
@@ -145,7 +150,7 @@ class Column {
     return std::inner_product(row.begin(), row.end(), values.begin(), 0.);
   }
   Matrix adjoint_sweep(double fraction) const {
-    const PairBeside<double> none;
+    const SlopesBeside none;
     const int all = 2 * held_;
     const auto energy = [&](int value) {
       const int n = value % all - held_;
@@ -188,16 +193,17 @@ class Column {
   }
 
   const SweepsAcross* of_;
-  const PairBeside<double>* slopes_;
+  const SlopesBeside* slopes_;
   int reach_, swept_, held_;
   double bend_ = 0, left_ = 0;  // of v and s in extensions
   std::vector<double> v_, s_;
+  std::array<double, 2 * std::size_t(rows)> found_v_{};
   AdjointSweeps* adjoint_;
 };
 
 /// A step is linear in what cells lie off and leaves that as it is: one system of equations.
-PairBeside<std::vector<double>> found_errors(const SweepsAcross& of, const PairBeside<double>& slopes,
-                                             const std::array<double, 2>& known) {
+ExtensionErrors found_errors(const SweepsAcross& of, const SlopesBeside& slopes,
+                             const std::array<double, 2>& known) {
   AdjointSweeps adjoint;
   Column recorded(of, slopes, known, adjoint);
   const double part = Column::part_recorded(of);
@@ -220,16 +226,19 @@ PairBeside<std::vector<double>> found_errors(const SweepsAcross& of, const PairB
   const auto found = equations.solve();
   auto lies_off = exact;
   for (int n = 0; n < unknowns; ++n) lies_off.off(n) += found[std::size_t(n)].real();
+  auto following = lies_off;
+  following.step();
   if (part != 0) lies_off.across(part);
   const auto error = [&](int n) {
     return part == 0 ? found[std::size_t(n)].real() : lies_off.off(n) - recorded.off(n);
   };
-  PairBeside<std::vector<double>> errors;
+  ExtensionErrors errors;
   for (int n = 0; n < rows; ++n)
     for (const std::size_t side : {0, 1}) {
       const int at = side == 0 ? rows - 1 - n : rows + n;
       errors.v[side].push_back(error(at));
       errors.s[side].push_back(error(at + 2 * rows));
+      errors.v_found[side].push_back(following.found_v(at - rows) - slopes.v[side] * (at - rows + 0.5));
     }
   return errors;
 }
@@ -237,11 +246,12 @@ PairBeside<std::vector<double>> found_errors(const SweepsAcross& of, const PairB
 }  // namespace
 
 /// Many points ask for those of one interface, so each thread keeps some.
-PairBeside<std::vector<double>> extension_errors(const SweepsAcross& of, const PairBeside<double>& slopes,
-                                                 const std::array<double, 2>& known) {
+ExtensionErrors extension_errors(const SweepsAcross& of, const SlopesBeside& slopes,
+                                 const std::array<double, 2>& known) {
   constexpr std::size_t most_kept = 256;
-  thread_local std::map<std::vector<double>, PairBeside<std::vector<double>>> kept;
-  std::vector<double> asked{double(of.order), double(of.axis), double(of.adjoint)};
+  thread_local std::map<std::vector<double>, ExtensionErrors> kept;
+  std::vector<double> asked{double(of.order),   double(of.axis),   double(of.along),
+                            double(of.adjoint), double(of.merges), double(of.beside_void)};
   for (const auto& pair : {of.impedance, of.courant, slopes.v, slopes.s, known})
     asked.insert(asked.end(), pair.begin(), pair.end());
   for (const auto& sweep : of.of_step) asked.insert(asked.end(), {double(sweep.axis), sweep.fraction});

@@ -103,7 +103,7 @@ std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& 
 
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
-                                          int row) {
+                                          int row, const Point<D>& shares) {
   const double zs = domain.impedance(wave_s)(at);
   const bool curvilinear = domain.curvilinear(at[D - 1]);
   // On curvilinear rows sides keep the plain mirror image.
@@ -127,7 +127,8 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       if (ends_free(domain, along)) return {};
       continue;
     }
-    const double outward = (side ? -1 : 1) * away / (along == D - 1 ? domain.height(at[D - 1]) : 1);
+    const double outward =
+        (side ? -1 : 1) * away / (along == D - 1 ? domain.height(at[D - 1]) : 1) * shares[std::size_t(along)];
     const auto bend =
         product_of(over, tractions<D>(c, normal, unit_vector<std::size_t(D)>(std::size_t(along))));
     for (int of = 0; of < D; ++of) {

@@ -22,14 +22,23 @@ struct SurfaceTerm {
   double weight = 0;
 };
 
+/// All of what motion along each axis adds.
+template <int D>
+constexpr Point<D> whole_shares() {
+  Point<D> shares{};
+  for (auto& share : shares) share = 1;
+  return shares;
+}
+
 /// The correction of velocity at a free surface (side 0 low, 1 high of an axis) of a solid: the difference of
 /// the velocity `row` between cell j before the surface and its image beyond it, over 2 j + 1, as a sum of
-/// velocities of cells along the edge (theory.md (E11)). `at` is a cell of the edge. Empty where the image is
-/// not corrected: in fluid and void, beside them, beside strong interfaces and free surfaces of another axis,
-/// and on grids of a few cells along the edge (in 3-D: along both axes of it).
+/// velocities of cells along the edge (theory.md (E11)), with such `shares` of what motion along each axis
+/// adds. `at` is a cell of the edge. Empty where the image is not corrected: in fluid and void, beside them,
+/// beside strong interfaces and free surfaces of another axis, and on grids of a few cells along the edge (in
+/// 3-D: along both axes of it).
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
-                                          int row);
+                                          int row, const Point<D>& shares = whole_shares<D>());
 
 /// Adds a field's value `offset` from a cell, which beyond an edge is that of its image. Returns false, and
 /// adds nothing, beyond a free surface and where the rock there is not like that of the cell.

@@ -14,6 +14,7 @@
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/motion_along.hpp"
+#include "solver/sweep/surface_errors.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -172,14 +173,6 @@ std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>
   return value_weights(layout, point_weights<D>(domain.grid, point_m, usable), field_row);
 }
 
-/// The pair of a velocity in sweeps along an axis.
-template <int D>
-int pair_of(int axis, int velocity) {
-  for (int pair = 1; pair < D && velocity != axis; ++pair)
-    if (axis_of_pair<D>(axis, pair) == velocity) return pair;
-  return 0;
-}
-
 /// A sum over cells from a face on, `last` the first of them.
 double weighted(const std::vector<CellWeight>& weights, const std::vector<double>& values,
                 std::int64_t last) {
@@ -187,17 +180,6 @@ double weighted(const std::vector<CellWeight>& weights, const std::vector<double
   for (const auto& [cell, weight] : weights)
     if (const auto n = std::size_t(std::abs(cell - last)); n < values.size()) sum += weight * values[n];
   return sum;
-}
-
-/// Returns by how much a velocity of slope 1 lies off in the field that forces answer to, below the free
-/// surface that a cell ends at (A23). Empty where the steps are not known.
-template <int D>
-std::vector<double> errors_below_surface(const Domain<D>& domain, const Index<D>& at, int axis,
-                                         int velocity) {
-  const double courant = domain.courant(at, axis, pair_of<D>(axis, velocity));
-  if (courant == 0) return {};
-  const SweepsAcross sweeps{domain.order, {0, 1}, {0, courant}, axis, splitting(D, domain.steps.time_order)};
-  return extension_errors(sweeps, {{0, 1}, {}}).v[1];
 }
 
 /// What a sum of velocities over cells `across`, on a side of an interface of rocks that steps make a kink
@@ -210,7 +192,7 @@ class InterfaceErrors {
       : domain_(domain), axis_(axis), velocity_(velocity), behind_(behind[std::size_t(axis)]) {
     const int pair = pair_of<D>(axis, velocity);
     const auto& impedance = domain.impedance_of_pair(axis, pair);
-    SweepsAcross sweeps{domain.order, {}, {}, axis, splitting(D, domain.steps.time_order)};
+    SweepsAcross sweeps{domain.order, {}, {}, axis, axis == 0 ? 1 : 0, splitting(D, domain.steps.time_order)};
     auto &z = sweeps.impedance, &courant = sweeps.courant;
     sweeps.adjoint = of_force, sweeps.merges = !of_force;
     for (const auto n : {0U, 1U}) {
@@ -221,7 +203,7 @@ class InterfaceErrors {
     // What slopes of 1 across, by side, and those of v that extensions are given (E11a) make of the sum and
     // of the differences of v and s over the face.
     const auto own = std::size_t(side);
-    const auto told = [&](const PairBeside<double>& slopes, const std::array<double, 2>& given) {
+    const auto told = [&](const SlopesBeside& slopes, const std::array<double, 2>& given) {
       const auto off = extension_errors(sweeps, slopes, given);
       return std::array{weighted(across, off.v[own], beside(behind, own)[std::size_t(axis)]),
                         (slopes.v[0] + slopes.v[1]) / 2 + off.v[1][0] - off.v[0][0],
@@ -381,8 +363,8 @@ void add_interface_correction(const VelocityAtPoint<D>& value, int axis, int sid
   weights.insert(weights.end(), all.begin(), all.end());
 }
 
-/// The correction of velocity of the images beyond a free surface of a solid, and for forces what the plain
-/// image of the transposed scheme leaves below it (A23), as weights.
+/// The correction of velocity of the images beyond a free surface of a solid, and what steps leave below it
+/// in records, or in the answer to forces (A23), as weights.
 template <int D>
 void add_surface_correction(const VelocityAtPoint<D>& value, int axis, int side,
                             std::vector<ValueWeight>& weights) {
@@ -397,19 +379,24 @@ void add_surface_correction(const VelocityAtPoint<D>& value, int axis, int side,
   double images = 0;
   for (std::size_t n = 0; n < evenly.size(); ++n)
     images += 0.5 * (evenly[n].weight - oddly[n].weight) * double(2 * std::abs(evenly[n].cell - last) + 1);
-  if (of_force) {
-    Index<D> at = centre;
-    at[axis] = last;
-    images += weighted(evenly, errors_below_surface(domain, at, axis, row), last);
+  Index<D> edge = centre;
+  edge[axis] = last;
+  Point<D> shares;
+  shares.fill(images);
+  for (int along = 0; along < D; ++along) {
+    if (along == axis) continue;
+    const double off =
+        weighted(evenly, errors_below_surface(domain, edge, axis, along, row, of_force).v[1], last);
+    if (std::abs(off) > least_error) shares[std::size_t(along)] += off;
   }
-  if (images == 0) return;
+  if (shares == Point<D>{}) return;
   // The surface's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
   on_edge[axis] = domain.grid.centre(axis, last);
   for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
-    for (const auto& term : surface_slope(domain, at.cell, axis, side, row))
+    for (const auto& term : surface_slope(domain, at.cell, axis, side, row, shares))
       weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
-                         images * at.weight * term.weight});
+                         at.weight * term.weight});
 }
 
 }  // namespace
@@ -550,9 +537,14 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
     const double position = domain.grid.position(axis, place[axis]);
     const bool low = ends_free[0] && position - double(cells.low) < centred_from,
                high = ends_free[1] && double(cells.high) - position < centred_from;
-    if ((!low && !high) || cells.high == cells.low) continue;
-    const auto first = std::clamp(std::int64_t(std::floor(position)), cells.low, cells.high - 1);
-    cells = {first, first + 1};
+    if (!low && !high) continue;
+    // Those towards the surface lie off most (A23).
+    const std::int64_t count = std::min<std::int64_t>(widest_beyond, cells.high - cells.low + 1);
+    const auto first =
+        low ? std::int64_t(std::floor(position)) : std::int64_t(std::ceil(position)) + 1 - count;
+    cells.low = std::clamp(first, cells.low, cells.high + 1 - count);
+    cells.high = cells.low + count - 1;
+    cells.below = cells.above = Beyond::unknown;
   }
   return weights_within(layout, domain, place, usable.cells, field_row);
 }

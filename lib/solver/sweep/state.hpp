@@ -186,6 +186,11 @@ template <int D>
 constexpr int axis_of_pair(int axis, int pair) {
   return pair - 1 < axis ? pair - 1 : pair;
 }
+/// The pair of the velocity along an axis in sweeps along another, or the same (0).
+template <int D>
+constexpr int pair_of(int axis, int velocity) {
+  return velocity == axis ? 0 : velocity < axis ? velocity + 1 : velocity;
+}
 
 /// A uniform run: cells first <= x < last of a row that have one material.
 template <class Real>
