@@ -10,6 +10,7 @@
 #include "lab.hpp"
 #include "line_fractures.hpp"
 #include "model/single_fracture.hpp"
+#include "samples.hpp"
 #include "scene_of_faces.hpp"
 #include "solver/simulation.hpp"
 
@@ -170,6 +171,32 @@ TEST(FractureOnFaces, IsNothingWhereItIsStiffAsRock) {
   EXPECT_LT(stiff, 5e-3);
   EXPECT_LT(scattered(1e-16), 1e-3);
   EXPECT_GT(scattered(1e-10), 5 * stiff);
+}
+
+/// Points within two cells of a fracture read and act on their own side of it: as in cells of a third. Sweeps
+/// across an upright one end a step, and what half of one leaves lies off.
+// Proves (S36).
+TEST(FractureOnFaces, IsFeltOnTheirOwnSideByPointsBesideIt) {
+  for (const double dip : {0., 90.})
+    for (const char* const mechanism : {"explosion", "force:0.4,1"}) {
+      std::vector<std::vector<double>> found;
+      for (const int cells : {20, 60}) {
+        auto scene = scene_with({{line(dip), 1e-10, 2e-10, true}}, cells);
+        const auto place = [&](double along, double off_cells) {
+          const double off_m = off_cells * slow_m / 20;
+          return dip == 0 ? Point<2>{middle + along, middle + off_m}
+                          : Point<2>{middle + off_m, middle + along};
+        };
+        scene.survey.sources[0].position_m = place(-30, -0.7);
+        scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
+        scene.survey.receivers_m.clear();
+        for (const double off_cells : {-1.2, 0.8, 1.6})
+          scene.survey.receivers_m.push_back(place(30, off_cells));
+        scene.recording.duration_s = 0.15;
+        found.push_back(samples_of(shoot(scene, 1)));
+      }
+      EXPECT_LT(relative_error(found[0], found[1]), dip == 0 ? 0.01 : 0.03) << dip << ", " << mechanism;
+    }
 }
 
 // The table of docs/slip.md.

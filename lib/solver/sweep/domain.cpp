@@ -493,6 +493,18 @@ double Domain<D>::courant(const Index<D>& cell, int axis, int pair) const {
 }
 
 template <int D>
+bool Domain<D>::is_split(const Index<D>& behind, int axis) const {
+  const auto place = [this](const SplitFace<D>& face) {
+    return std::pair(face.axis, grid.flat(face.behind));
+  };
+  const std::pair wanted(axis, grid.flat(behind));
+  const auto found =
+      std::lower_bound(split.begin(), split.end(), wanted,
+                       [&](const SplitFace<D>& face, const auto& of) { return place(face) < of; });
+  return found != split.end() && place(*found) == wanted;
+}
+
+template <int D>
 const AnisotropicCell* Domain<D>::anisotropic_cell(const Index<D>& at) const {
   if (cells_.empty()) return nullptr;
   const auto cell = grid.flat(at);

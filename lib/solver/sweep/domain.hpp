@@ -88,6 +88,8 @@ class Domain {
   /// Returns the Courant number of the wave of a pair in a whole step: of the steps, 0 where they are not
   /// known.
   double courant(const Index<D>& cell, int axis, int pair) const;
+  /// Whether a single fracture parts the face before a cell along an axis.
+  bool is_split(const Index<D>& behind, int axis) const;
   /// Whether the S pairs of an axis may have different ones.
   bool splits_shear() const { return D == 3 && anisotropic(); }
   /// Whether any cell, of any process, is anisotropic.

@@ -60,6 +60,7 @@ struct Box {
 
 /// The largest box round a cell of cells that are `alike(cell, the next one towards the centre)`, grown one
 /// layer at a time on each side, by `rings` at most and, where `longest` is given, until it is that long.
+/// Sides that a single fracture parts may move otherwise.
 template <int D, class Alike>
 Box<D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings, std::int64_t longest,
                  Alike&& alike) {
@@ -79,7 +80,7 @@ Box<D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings, std
     return all_of_layer<D>(box.cells, axis, layer, [&](const Index<D>& at) {
       Index<D> inside = at;
       inside[axis] += layer < centre[axis] ? 1 : -1;
-      if (!alike(at, inside)) return false;
+      if (!alike(at, inside) || domain.is_split(layer < centre[axis] ? inside : at, int(axis))) return false;
       // Cells beside a surface end there with the others.
       for (std::size_t other = 0; other < D; ++other)
         for (const int side : {0, 1})
@@ -309,8 +310,7 @@ bool kinks(const Domain<D>& domain, const Index<D>& behind, int axis, int veloci
       !strong_interface_between(impedance(before), impedance(behind)))
     return false;
   if (!domain.in_band(before[D - 1]) || !domain.in_band(behind[D - 1])) return false;
-  const auto ends = [&](const SplitFace<D>& face) { return face.axis == axis && face.behind == behind; };
-  if (std::any_of(domain.split.begin(), domain.split.end(), ends)) return false;
+  if (domain.is_split(behind, axis)) return false;
   for (int along = 0; along < D; ++along)
     for (std::int64_t n = -along_needed; along != axis && n <= along_needed; ++n) {
       Index<D> one = before, other = behind;
