@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/sweep/surface_errors.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -17,7 +18,12 @@ ExtensionErrors errors_below_surface(const Domain<D>& domain, const Index<D>& at
                                      int velocity, bool of_source) {
   const double courant = domain.courant(at, axis, pair_of<D>(axis, velocity));
   if (courant == 0) return {};
-  SweepsAcross sweeps{domain.order, {0, 1}, {0, courant}, axis, along, splitting(D, domain.steps.time_order)};
+  const auto of_step = splitting(D, domain.steps.time_order);
+  const auto times = std::count_if(of_step.begin(), of_step.end(),
+                                   [axis](const SweepFraction& sweep) { return sweep.axis == axis; });
+  // A single sweep across, in the middle of the step, leaves nothing where its images have the slope.
+  if (!of_source && times == 1) return {};
+  SweepsAcross sweeps{domain.order, {0, 1}, {0, courant}, axis, along, of_step};
   sweeps.merges = !of_source, sweeps.beside_void = true;
   // Images have the slope in the steps, but for those of the transposed step.
   return extension_errors(sweeps, {{0, 1}, {}}, {0, of_source ? 0. : 1.});

@@ -13,7 +13,7 @@ inline constexpr double least_error = 1e-9;
 
 /// Returns by how much a velocity of slope 1 lies off below the free surface that a cell ends at, on side 1,
 /// as it is recorded, or in the field that sources answer to, where sweeps along one axis give the slope
-/// (theory.md (A23)). Empty where the steps are not known.
+/// (theory.md (A23)). Empty where there are none or the steps are not known.
 template <int D>
 ExtensionErrors errors_below_surface(const Domain<D>& domain, const Index<D>& at, int axis, int along,
                                      int velocity, bool of_source);
