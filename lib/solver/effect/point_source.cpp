@@ -158,7 +158,7 @@ void PointSource<D, Real>::add_force(const Source<D>& source, int axis, double n
   if (newtons == 0) return;
   for (const auto& value :
        source_weights(state_.layout, domain_, source.position_m, FieldRows<D>::velocity(axis))) {
-    const auto cell = domain_.model_cell(cell_of_value(value));
+    const auto cell = domain_.model_cell(cell_of_value(state_.layout, value));
     const double rho = medium_.rho(cell);
     const int row = int(value.place / state_.layout.row_pitch());
     if (row < D) {
@@ -174,13 +174,6 @@ void PointSource<D, Real>::add_force(const Source<D>& source, int axis, double n
       add({value}, Rows::normal_stress(i) - row,
           given * (lambda + (Rows::normal_stress(i) == row ? 2 * mu : 0)));
   }
-}
-
-template <int D, class Real>
-Index<D> PointSource<D, Real>::cell_of_value(const ValueWeight& value) const {
-  auto cell = state_.layout.line_index(value.line);
-  cell[0] = state_.layout.column(value.place);
-  return cell;
 }
 
 /// Spreads `strength` over cells of stresses with the weights of a source in row `like`: smoothly, if the
@@ -212,8 +205,8 @@ void PointSource<D, Real>::add(const std::vector<ValueWeight>& weights, int rows
     value.place += rows_on * state_.layout.row_pitch();
     value.weight *= strength;
     if (domain_.model_grid.rows)
-      value.weight *=
-          domain_.grid.spacing_m / domain_.model_grid.height(domain_.model_cell(cell_of_value(value)));
+      value.weight *= domain_.grid.spacing_m /
+                      domain_.model_grid.height(domain_.model_cell(cell_of_value(state_.layout, value)));
     values_.push_back(value);
   }
 }

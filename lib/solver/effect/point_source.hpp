@@ -54,7 +54,6 @@ class PointSource : public Effect<D, Real> {
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
   void add_force(const Source<D>& source, int axis, double newtons, double volume);
-  Index<D> cell_of_value(const ValueWeight& value) const;
   void add_moment(const Source<D>& source, const std::vector<std::array<int, 2>>& stresses, int like,
                   double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);

@@ -161,9 +161,8 @@ std::vector<ValueWeight> value_weights(const Layout<D>& layout, const std::vecto
                                        int field_row) {
   std::vector<ValueWeight> weights;
   if (!FieldRows<D>::is_stored(layout, field_row)) return weights;
-  const auto row = FieldRows<D>::stored(layout, field_row) * layout.row_pitch();
-  for (const auto& point : points)
-    weights.push_back({layout.line_number(point.cell), point.cell[0] + row, point.weight});
+  const auto row = FieldRows<D>::stored(layout, field_row);
+  for (const auto& point : points) weights.push_back(value_weight(layout, point.cell, row, point.weight));
   return weights;
 }
 
@@ -357,8 +356,7 @@ void add_interface_correction(const VelocityAtPoint<D>& value, int axis, int sid
     const auto terms = errors.terms(at.cell);
     if (terms.empty()) return;
     for (const auto& term : terms)
-      all.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
-                     at.weight * term.weight});
+      all.push_back(value_weight(layout, term.cell, term.row, at.weight * term.weight));
   }
   weights.insert(weights.end(), all.begin(), all.end());
 }
@@ -395,8 +393,7 @@ void add_surface_correction(const VelocityAtPoint<D>& value, int axis, int side,
   on_edge[axis] = domain.grid.centre(axis, last);
   for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
     for (const auto& term : surface_slope(domain, at.cell, axis, side, row, shares))
-      weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
-                         at.weight * term.weight});
+      weights.push_back(value_weight(layout, term.cell, term.row, at.weight * term.weight));
 }
 
 }  // namespace

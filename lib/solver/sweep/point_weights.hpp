@@ -17,6 +17,19 @@ struct ValueWeight {
   double weight = 0;
 };
 
+/// The weight of the value of a stored row in a cell.
+template <int D>
+ValueWeight value_weight(const Layout<D>& layout, const Index<D>& cell, std::int64_t row, double weight) {
+  return {layout.line_number(cell), cell[0] + row * layout.row_pitch(), weight};
+}
+/// Returns the cell that a value is of.
+template <int D>
+Index<D> cell_of_value(const Layout<D>& layout, const ValueWeight& value) {
+  auto cell = layout.line_index(value.line);
+  cell[0] = layout.column(value.place);
+  return cell;
+}
+
 /// Numbers of the lines that take part, ascending, each once.
 std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values);
 

@@ -64,7 +64,7 @@ class MomentBelowSurface {
       for (const int n : {0, 1}) {
         auto cell = domain_.grid.index(edge);
         cell[std::size_t(axis_)] += side_ ? -n : n;
-        all.push_back({layout_.line_number(cell), cell[0] + row * layout_.row_pitch(), n ? -off : off});
+        all.push_back(value_weight(layout_, cell, row, n ? -off : off));
       }
     }
   }
@@ -77,8 +77,7 @@ class MomentBelowSurface {
     for (const auto& [edge, sum] : sums(errors))
       for (const auto& term : surface_slope(domain_, domain_.grid.index(edge), axis_, side_,
                                             FieldRows<D>::velocity(velocity()), share))
-        all.push_back({layout_.line_number(term.cell), term.cell[0] + term.row * layout_.row_pitch(),
-                       -sum * term.weight / z});
+        all.push_back(value_weight(layout_, term.cell, term.row, -sum * term.weight / z));
   }
 
  private:
@@ -89,8 +88,7 @@ class MomentBelowSurface {
   std::map<std::int64_t, double> sums(const std::vector<double>& errors) const {
     std::map<std::int64_t, double> all;
     for (const auto& value : weights_) {
-      auto cell = layout_.line_index(value.line);
-      cell[0] = layout_.column(value.place);
+      auto cell = cell_of_value(layout_, value);
       auto& place = cell[std::size_t(axis_)];
       const auto n = std::size_t(std::abs(place - edge_[std::size_t(axis_)]));
       place = edge_[std::size_t(axis_)];
