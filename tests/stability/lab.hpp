@@ -28,14 +28,13 @@
 
 namespace slipwave {
 
-/// Of a list of cases the short form takes each third from `first` on. Suites that go through the same list
-/// begin at different ones: together they have all of it.
+/// Of a list of cases the short form takes each third from `first` on, the long one every other. Suites that
+/// go through the same list begin at different ones: together they have all of it.
 template <class Case>
 std::vector<Case> share_of(const std::vector<Case>& cases, std::size_t first = 0) {
   std::vector<Case> taken;
-  const std::size_t begin = first % std::min<std::size_t>(3, cases.size());
-  for (std::size_t n = long_form() ? 0 : begin; n < cases.size(); n += long_form() ? 1 : 3)
-    taken.push_back(cases[n]);
+  const std::size_t step = std::min<std::size_t>(long_form() ? 2 : 3, cases.size());
+  for (std::size_t n = first % step; n < cases.size(); n += step) taken.push_back(cases[n]);
   return taken;
 }
 

@@ -233,6 +233,7 @@ TEST(PmlBesideSoftLayers, StaysBoundedForThousandsOfSteps) {
       // Water beside soft layers: by a fifth in 10 000 steps; 17 at the smaller Courant number in 20 000
       // (docs/theory/sources.md).
       if (seed == 35 || seed == 42 || (seed == 17 && courant < 1)) continue;
+      if (long_form() && (seed % 2 == 0) != (courant < 1)) continue;
       SCOPED_TRACE(std::to_string(seed) + ", Courant number " + std::to_string(courant));
       const auto scene = soft_layers(seed);
       // Waves of the source have 50 to 5000 cells.

@@ -57,7 +57,7 @@ TEST(EnergyOfAnisotropicSpace, NeverRises) {
       return turned ? draw.rock(0.2, {0.4, 0.6}, true) : draw.rock(0.3, {0.2, 0.7}, false);
     };
     for (const int block : {1, 4})
-      for (const int order : long_form() ? std::vector{3, 5, 7, 11}
+      for (const int order : long_form() ? block == 1 ? std::vector{5, 11} : std::vector{3, 7}
                                          : std::vector{block == 1 ? 7
                                                        : turned   ? 5
                                                                   : 3})
@@ -133,7 +133,7 @@ TEST(EnergyOfAnisotropicSpace, IsTakenBySlip) {
       cube.shake(unsigned(n) + 4);
       const double all = cube.energy();
       double least = all, lost = 0;
-      step_with(slip, cube, long_form() ? 2000 : 30, dt_s, [&](std::int64_t step, double before) {
+      step_with(slip, cube, long_form() ? 1000 : 30, dt_s, [&](std::int64_t step, double before) {
         const double now = cube.energy();
         lost += before - now;
         // By the centred rule waves may waver by what slip took from them a step ago (S27).

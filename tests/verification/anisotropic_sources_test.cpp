@@ -443,11 +443,10 @@ TEST(ForceInAnisotropicSpace, IsThatOfPlaneWavesInAllDirections) {
   EXPECT_LT(error_of_a_force(along_y, 12), 0.02);
   EXPECT_LT(error_of_a_force(triclinic, 12), 0.02);
   if (!long_form()) return;
-  for (const auto& rock : {shale, crossed, cracked})
-    for (const int order : {5, 7}) {
-      EXPECT_LT(error_of_a_force(rock, 16, order), 0.01) << order;
-      EXPECT_LT(error_of_a_force(rock, 24, order), 0.005) << order;
-    }
+  for (const auto& rock : {shale, crossed, cracked}) {
+    EXPECT_LT(error_of_a_force(rock, 16, 5), 0.01);
+    EXPECT_LT(error_of_a_force(rock, 24, 7), 0.005);
+  }
   EXPECT_LT(error_of_a_force(along_y, 24), 0.004);
   EXPECT_LT(error_of_a_force(triclinic, 24), 0.005);
   for (const auto& rock : {along_y, turned_by(crossed, -50, 35), askew})

@@ -248,7 +248,8 @@ TEST(SpringRow, ReflectsAndTransmitsAsSchoenbergsInterface) {
     cases.clear();
     for (const bool of_s : {false, true})
       for (const double hz : {10., 30., 60.})
-        for (const double angle_deg : {1., 40., 70.}) cases.push_back({of_s, hz, angle_deg});
+        for (const double angle_deg : {1., 40., 70.})
+          if ((hz == 30) == (angle_deg == 40)) cases.push_back({of_s, hz, angle_deg});
   }
   for (const auto& [of_s, hz, angle_deg] : cases) {
     const auto of = setup(of_s, hz, angle_deg, hz > 25 ? 2.5 : 5);
