@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -44,6 +45,9 @@ struct FractureSet {
   std::vector<SlipSystem<D>> systems;
   std::vector<FractureTrace<D>> traces = {};
   bool on_faces = false;
+
+  /// Planes in all of their cells; else single fractures along traces.
+  bool is_cluster() const { return traces.empty(); }
 };
 
 /// Whether any planes of a set give way as springs; whether any may slide.
@@ -77,6 +81,19 @@ struct Model {
 
   const Grid<D>& grid() const { return medium.grid(); }
 };
+
+/// Whether the planes of a set continue outside the model where waves leave it: those of a cluster that give
+/// way in proportion to the stress of waves. Friction ends with the model, since in absorbing zones it may
+/// add energy to what is damped (theory/fractures.md).
+template <int D>
+bool continues_outside(const Model<D>& model, std::size_t set) {
+  const auto proportional = [&](const SlipSystem<D>& of) {
+    return !of.slides() || (of.law == FrictionLaw::coulomb && of.friction == 0 && of.strength_pa == 0 &&
+                            !of.opens && model.prestress_pa.empty());
+  };
+  const auto& of = model.fracture_sets[set];
+  return of.is_cluster() && std::all_of(of.systems.begin(), of.systems.end(), proportional);
+}
 
 /// A model of another grid with all that one holds besides its cells: those have no values yet.
 template <int D>

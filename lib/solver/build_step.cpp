@@ -28,11 +28,11 @@ bool absorbs(const Scene<D>& scene, const Source<D>& source) {
 /// Friction comes after the springs under it.
 template <int D, class Real>
 void add_slip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s, double unit,
-              Effects<D, Real>& all) {
+              const InjectedStress<D, Real>& injected, Effects<D, Real>& all) {
   const auto& sets = scene.model.fracture_sets;
   if (!scene.slips()) return;
   if (std::any_of(sets.begin(), sets.end(), gives<D>))
-    all.push_back(std::make_unique<LinearSlip<D, Real>>(state, domain, scene, dt_s, unit));
+    all.push_back(std::make_unique<LinearSlip<D, Real>>(state, domain, scene, dt_s, unit, injected));
   if (std::any_of(sets.begin(), sets.end(), slides<D>))
     all.push_back(std::make_unique<Slip<D, Real>>(state, domain, scene, dt_s, unit));
 }
@@ -71,7 +71,7 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
     else
       all.push_back(std::move(pml));
   }
-  std::vector<const PointSource<D, Real>*> points;
+  std::vector<PointSource<D, Real>*> points;
   for (const auto* each : scene.survey.sources_of(shot)) {
     if (!point_injection(*each)) continue;
     auto point = std::make_unique<PointSource<D, Real>>(state, domain, scene, *each, unit, ranks);
@@ -79,9 +79,10 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
     points.push_back(point.get());
     all.push_back(std::move(point));
   }
+  const InjectedStress<D, Real> injected(std::move(points));
   if (scene.attenuates())
-    all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, points));
-  add_slip<D, Real>(state, domain, scene, dt_s, unit, all);
+    all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, injected));
+  add_slip<D, Real>(state, domain, scene, dt_s, unit, injected, all);
   return all;
 }
 

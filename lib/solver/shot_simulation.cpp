@@ -166,6 +166,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
 template <int D, class Real>
 Effects<D, Real> ShotSimulation<D, Real>::make_effects(const InAllBands<D>* bands) {
   sweeps_.split_faces(domain_, dt_s_, unit_);
+  if (scene_->slips()) domain_.among_planes = stiffness_among_planes(domain_, scene_->model);
   return builder().effects(shot_, unit_, ranks_, bands && bands->ground ? &*bands->ground : nullptr);
 }
 

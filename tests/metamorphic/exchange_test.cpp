@@ -2,9 +2,12 @@
 // Source and receiver exchanged: beside and on interfaces and surfaces.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "drawn_scene.hpp"
+#include "model/fracture.hpp"
 
 namespace slipwave::solver::exchange_test {
 namespace {
@@ -94,9 +97,10 @@ TEST(Exchange, BelowVoidHoldsToTheOrderOfTheScheme) {
   }
 }
 
-/// A moment of rate w moves a point as fast as a force w there strains the place of the moment.
-// Proves (A23a).
-TEST(Exchange, OfMomentsAndStrainsBelowVoidHoldsToTheOrderOfTheScheme) {
+/// A moment of rate w moves a point as fast as a force w there strains the place of the moment. Appends both,
+/// for an explosion and each component of a moment.
+void exchange_moments(Scene<2> scene, const Point<2>& from, const Point<2>& to, std::vector<double>& motions,
+                      std::vector<double>& strains) {
   struct Kind {
     const char* mechanism;
     Component strain;
@@ -106,32 +110,55 @@ TEST(Exchange, OfMomentsAndStrainsBelowVoidHoldsToTheOrderOfTheScheme) {
                         {"moment:1,0,0", Component::exx, 1},
                         {"moment:0,1,0", Component::ezz, 1},
                         {"moment:0,0,1", Component::exz, 2}};
+  scene.recording.interval_s = 0.0001;
+  for (const auto& kind : kinds) {
+    scene.recording.components = {kind.strain};
+    shoot_from(scene, to, "force:0.4,1", {from});
+    double sum = 0, before = 0;
+    for (const double rate : traces_of(scene)) {
+      sum += kind.times * scene.recording.interval_s * (rate + std::exchange(before, rate)) / 2;
+      strains.push_back(sum);
+    }
+    scene.recording.components = {Component::vx, Component::vz};
+    shoot_from(scene, from, kind.mechanism, {to});
+    const auto moved = shoot(scene, 1);
+    for (std::size_t n = 0; n < moved.traces[0].samples.size(); ++n)
+      motions.push_back(0.4 * moved.traces[0].samples[n] + moved.traces[1].samples[n]);
+  }
+}
+
+// Proves (A23a).
+TEST(Exchange, OfMomentsAndStrainsBelowVoidHoldsToTheOrderOfTheScheme) {
   for (const unsigned seed : seeds(1)) {
     Draw draw(seed);
-    auto scene = two(nothing, draw.rock(25), 30);
-    scene.recording.interval_s = 0.0001;
-    const Point<2> to{70.3, 55.6};
-    // Together, since shear vanishes at the surface, and its errors do not.
+    const auto scene = two(nothing, draw.rock(25), 30);
     for (const double below_m : {0.25, draw.between(0.5, 1), draw.between(1, 3)}) {
-      const Point<2> from{40.2, 30 + below_m};
+      // Together, since shear vanishes at the surface, and its errors do not.
       std::vector<double> strains, motions;
-      for (const auto& kind : kinds) {
-        scene.recording.components = {kind.strain};
-        shoot_from(scene, to, "force:0.4,1", {from});
-        double sum = 0, before = 0;
-        for (const double rate : traces_of(scene)) {
-          sum += kind.times * scene.recording.interval_s * (rate + std::exchange(before, rate)) / 2;
-          strains.push_back(sum);
-        }
-        scene.recording.components = {Component::vx, Component::vz};
-        shoot_from(scene, from, kind.mechanism, {to});
-        const auto moved = shoot(scene, 1);
-        for (std::size_t n = 0; n < moved.traces[0].samples.size(); ++n)
-          motions.push_back(0.4 * moved.traces[0].samples[n] + moved.traces[1].samples[n]);
-      }
+      exchange_moments(scene, {40.2, 30 + below_m}, {70.3, 55.6}, motions, strains);
       // Of first order within a cell of the surface.
       EXPECT_LT(difference(motions, strains), 0.03) << "seed " << seed << ", " << below_m << " m below";
     }
+  }
+}
+
+// Proves (S26a).
+TEST(Exchange, OfMomentsAndStrainsAmongSpringsHoldsToTheOrderOfTheScheme) {
+  for (const unsigned seed : seeds(1)) {
+    Draw draw(seed);
+    const auto rock = draw.rock(25);
+    auto scene = scene_of(110, 100, [=](auto, auto) { return rock; });
+    const double dip = draw.between(0, std::numbers::pi), mu = rock.rho * rock.vs * rock.vs;
+    SlipSystem<2> springs{{std::sin(dip), std::cos(dip)}};
+    springs.law = FrictionLaw::none;
+    springs.compliance = {.normal_m_per_pa = draw.between(0, 0.5) / mu,
+                          .tangential_m_per_pa = draw.between(0.2, 1) / mu,
+                          .spacing_m = 1};
+    add_fractures<2>(scene.model, {"planes", {springs}},
+                     [](const Point<2>& at) { return at[0] > 25 && at[0] < 60; });
+    std::vector<double> strains, motions;
+    exchange_moments(scene, {40.2, 43.7}, {70.3, 55.6}, motions, strains);
+    EXPECT_LT(difference(motions, strains), 0.02) << "seed " << seed;
   }
 }
 

@@ -11,6 +11,9 @@
 #include "fitted_lab.hpp"
 #include "lab.hpp"
 #include "media.hpp"
+#include "model/fracture.hpp"
+#include "solver/build_step.hpp"
+#include "solver/effect/linear_slip.hpp"
 #include "solver/effect/pml.hpp"
 #include "solver/effect/slip.hpp"
 #include "whole_effect.hpp"
@@ -31,10 +34,14 @@ class InLayer {
         domain_(domain_of(scene_, layer_cells, dt_s_)),
         state_(solver::make_state<2, double>(domain_.grid.shape, domain_.material_kind())),
         sweeps_(state_, domain_, order),
-        layer_(state_.layout, domain_, dt_s_, fastest_speed(scene_.model.medium), slow_hz) {
+        layer_(state_.layout, among_planes(), dt_s_, fastest_speed(scene_.model.medium), slow_hz) {
     solver::fill_material(state_, domain_, scene_.model.medium, dt_s_);
     sweeps_.use(&layer_);
-    if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, double>>(state_, domain_, scene_, dt_s_);
+    const auto& sets = scene_.model.fracture_sets;
+    if (std::any_of(sets.begin(), sets.end(), gives<2>))
+      effects_.push_back(std::make_unique<solver::LinearSlip<2, double>>(state_, domain_, scene_, dt_s_));
+    if (std::any_of(sets.begin(), sets.end(), slides<2>))
+      effects_.push_back(std::make_unique<solver::Slip<2, double>>(state_, domain_, scene_, dt_s_));
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
@@ -64,14 +71,18 @@ class InLayer {
       sweeps_.along(0, 0.5, {n, 0});
       sweeps_.along(1, 1, {n, 1});
       sweeps_.along(0, 0.5, {n, 2});
-      if (!slip_) continue;
-      solver::run_everywhere(*slip_, {n, dt_s_}, state_);
-      solver::run_after_everywhere(*slip_, {n, dt_s_}, state_);
+      for (auto& effect : effects_) solver::run_everywhere(*effect, {n, dt_s_}, state_);
+      for (auto effect = effects_.rbegin(); effect != effects_.rend(); ++effect)
+        solver::run_after_everywhere(**effect, {n, dt_s_}, state_);
     }
   }
   double energy() const { return solver::energy(state_, domain_, scene_.model.medium); }
 
  private:
+  const solver::Domain<2>& among_planes() {
+    if (scene_.slips()) domain_.among_planes = solver::stiffness_among_planes(domain_, scene_.model);
+    return domain_;
+  }
   static solver::Domain<2> domain_of(const Scene<2>& scene, int layer_cells, double dt_s) {
     auto domain = solver::make_domain(scene.model.medium, scene.edges, layer_cells);
     domain.steps = {&scene.model.medium, dt_s, 2};
@@ -85,7 +96,7 @@ class InLayer {
   solver::State<2, double> state_;
   solver::Sweeps<2, double> sweeps_;
   solver::Pml<2, double> layer_;
-  std::unique_ptr<solver::Effect<2, double>> slip_;
+  solver::Effects<2, double> effects_;
 };
 
 Scene<2> scene_of(const std::string& medium, int cells, EdgeLaw top) {
@@ -220,6 +231,54 @@ TEST_P(Pml, StaysBoundedWithSlippingCellsOnAllSides) {
   for (std::size_t cell = 0; cell < scene.model.fracture.size(); ++cell)
     scene.model.fracture[cell] = scene.model.medium.is_solid(cell);
   expect_to_last(InLayer(scene, 5, 8, matched));
+}
+
+// Proves (S26b).
+TEST(PmlAmongPlanes, StaysBoundedForThousandsOfSteps) {
+  const ThreadLimit one_thread(1);
+  // Springs, normal and tangential compliance in terms of the rock, and viscous slip; one family or two.
+  struct Planes {
+    double normal, tangential, viscosity;
+  };
+  std::size_t turn = 0;
+  for (const Planes& of : {Planes{0.5, 0, 0},
+                           {0, 0.5, 0},
+                           {0.3, 1, 0},
+                           {10, 10, 0},
+                           {0, 100, 0},
+                           {100, 0, 0},
+                           {0, 0, 3},
+                           {0, 0, 300},
+                           {0, 0, 0}})
+    for (const double dip : share_of(std::vector<double>{0, 20, 45, 70, 90, -30}, turn++))
+      for (const int families : {1, 2}) {
+        Scene<2> scene;
+        scene.edges = all_edges(EdgeLaw::absorbing);
+        if (turn % 2) scene.edges[1][0] = EdgeLaw::free;
+        auto& model = scene.model;
+        model.medium = rock(14, 14);
+        const double mu = model.medium.rho[0] * std::pow(model.medium.vs[0], 2), h = model.grid().spacing_m,
+                     dt_s = matched * h / fastest_speed(model.medium);
+        FractureSet<2> set{"all", {}};
+        for (int n = 0; n < families; ++n) {
+          SlipSystem<2> system{normal_of_dip(n == 0    ? dip
+                                             : dip > 0 ? dip - 90
+                                                       : dip + 90),
+                               0, of.viscosity * dt_s, 0};
+          if (of.normal + of.tangential > 0) {
+            system.law = FrictionLaw::none;
+            system.compliance = {
+                .normal_m_per_pa = of.normal / mu, .tangential_m_per_pa = of.tangential / mu, .spacing_m = 1};
+          }
+          set.systems.push_back(system);
+        }
+        model.fracture_sets = {set};
+        model.fracture = Field<2, std::uint8_t>(model.grid(), 1);
+        SCOPED_TRACE("dip " + std::to_string(dip) + ", families " + std::to_string(families) + ", " +
+                     std::to_string(of.normal) + " " + std::to_string(of.tangential) + " " +
+                     std::to_string(of.viscosity));
+        expect_to_last(InLayer(scene, std::array{3, 5, 7}[turn % 3], turn % 2 ? 8 : 20, matched));
+      }
 }
 
 // Proves (E14c).

@@ -267,24 +267,28 @@ BitScenes springs() {
     std::vector<SlipSystem<2>> systems;
     SlipCorrection correction;
     int time_order = 2;
+    bool to_the_edges = false;
   };
   BitScenes all;
-  for (const auto& of :
-       std::vector<Springs>{{"One", {spring({0.6, 0.8}, 0.4 / mu, 0.7 / mu)}, SlipCorrection::second},
-                            {"TwoInTime4",
-                             {spring({0, 1}, 0.4 / mu, 0.7 / mu), spring({0.8, 0.6}, 0, 2 / mu)},
-                             SlipCorrection::exponential,
-                             4},
-                            {"Sliding", {sliding}, SlipCorrection::first},
-                            {"SlidingBlocks", {block, across}, SlipCorrection::second},
-                            {"SlidingCentred", {sliding}, SlipCorrection::centred},
-                            {"SlidingBlocksCentred", {block, across}, SlipCorrection::centred},
-                            {"Soft",
-                             {spring({0.6, 0.8}, 300 / mu, 300 / mu), spring({1, 0}, 300 / mu, 300 / mu)},
-                             SlipCorrection::centred}})
+  for (const auto& of : std::vector<Springs>{
+           {"One", {spring({0.6, 0.8}, 0.4 / mu, 0.7 / mu)}, SlipCorrection::second},
+           {"TwoInTime4",
+            {spring({0, 1}, 0.4 / mu, 0.7 / mu), spring({0.8, 0.6}, 0, 2 / mu)},
+            SlipCorrection::exponential,
+            4},
+           {"ToTheEdges", {spring({0.6, 0.8}, 0.4 / mu, 0.7 / mu)}, SlipCorrection::second, 2, true},
+           {"ViscousToTheEdges", {{{0.6, 0.8}, 0, 10, 0}}, SlipCorrection::second, 2, true},
+           {"Sliding", {sliding}, SlipCorrection::first},
+           {"SlidingBlocks", {block, across}, SlipCorrection::second},
+           {"SlidingCentred", {sliding}, SlipCorrection::centred},
+           {"SlidingBlocksCentred", {block, across}, SlipCorrection::centred},
+           {"Soft",
+            {spring({0.6, 0.8}, 300 / mu, 300 / mu), spring({1, 0}, 300 / mu, 300 / mu)},
+            SlipCorrection::centred}})
     all.push_back({"Springs" + std::string(of.name), [=] {
                      auto scene = in_one_rock();
-                     for (auto& code : scene.model.fracture) code = std::min<std::uint8_t>(code, 1);
+                     for (auto& code : scene.model.fracture)
+                       code = of.to_the_edges ? 1 : std::min<std::uint8_t>(code, 1);
                      scene.model.fracture_sets = {{"springs", of.systems}};
                      scene.numerics.correction = of.correction;
                      scene.numerics.time_order = of.time_order;

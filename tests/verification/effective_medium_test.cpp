@@ -188,5 +188,54 @@ TEST(EffectiveMedium, IsWhatSpringsConvergeToWithSecondOrder) {
   EXPECT_LT(error_of_springs(5, {upright}, {level}), 0.025);
 }
 
+// Proves (S26a).
+TEST(EffectiveMedium, IsWhatMomentsActOnAmongSprings) {
+  // Planes that took part of a moment for strain of the rock would weaken it by as much as the stiffness.
+  const std::vector all = {level, upright};
+  const auto difference = [&](double h, const char* mechanism) {
+    auto scene = scene_with(h), among = scene;
+    make_effective(scene.model, all, everywhere);
+    add_fractures<2>(among.model, {"planes", all}, everywhere);
+    std::vector<double> samples[2];
+    for (auto* each : {&scene, &among}) {
+      each->survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
+      for (const auto& trace : shoot(*each, 1).traces) {
+        auto& of = samples[each == &among];
+        of.insert(of.end(), trace.samples.begin(), trace.samples.end());
+      }
+    }
+    return relative_error(samples[1], samples[0]);
+  };
+  for (const char* mechanism : {"explosion", "moment:0,0,1"}) {
+    const double coarse = difference(6, mechanism), fine = difference(3, mechanism);
+    EXPECT_LT(fine, 0.05) << mechanism;
+    EXPECT_GT(observed_order(coarse, fine), 1.5) << mechanism;
+  }
+}
+
+// Proves (S26b).
+TEST(EffectiveMedium, OfSpringsAndViscousPlanesContinuesBeyondAbsorbingEdges) {
+  auto creeping = level;
+  creeping.compliance = {}, creeping.law = FrictionLaw::coulomb, creeping.viscosity_s = 0.02;
+  const auto dipping = planes(normal_of_dip(30), 0.2, 0.35);
+  // Of planes in all cells of a model that ends 60 m from the receivers, and of one that waves do not cross.
+  const auto traces = [](const SlipSystem<2>& system, double beyond_m) {
+    auto scene = scene_with(5);
+    const double size = 340 + 2 * beyond_m, shift = size / 2 - 450;
+    const auto cells = std::llround(size / 5);
+    scene.model.medium = uniform_medium(cells, cells, 5, {rock.vp, rock.vs, rock.rho});
+    for (auto& at : scene.survey.receivers_m) at[0] += shift, at[1] += shift;
+    for (auto& along : scene.survey.sources[0].position_m) along += shift;
+    scene.recording.duration_s = 0.4;
+    add_fractures<2>(scene.model, {"planes", {system}}, everywhere);
+    std::vector<double> samples;
+    for (const auto& trace : shoot(scene, 1).traces)
+      samples.insert(samples.end(), trace.samples.begin(), trace.samples.end());
+    return samples;
+  };
+  for (const auto& system : {level, dipping, creeping})
+    EXPECT_LT(relative_error(traces(system, 60), traces(system, 600)), 0.01) << system.normal[0];
+}
+
 }  // namespace
 }  // namespace slipwave::solver::effective_medium_test

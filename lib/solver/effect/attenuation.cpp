@@ -31,10 +31,9 @@ void clear(Buffer<Real>& buffer) {
 
 template <int D, class Real>
 RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Scene<D>& scene, double dt_s,
-                                        std::vector<const PointSource<D, Real>*> sources)
+                                        const Scene<D>& scene, double dt_s, InjectedStress<D, Real> injected)
     : layout_(layout),
-      sources_(std::move(sources)),
+      injected_(std::move(injected)),
       every_(relaxation_steps(scene.numerics)),
       mechanisms_(scene.attenuation->mechanisms.count()),
       parts_(relaxing_parts(D, what_relaxes(domain))),
@@ -166,24 +165,22 @@ void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowField
                                             const IndexRange& columns) {
   const auto of_row = segments(fields.row);
   if (of_row.empty() || time.step % every_ != every_ - 1) return;
-  bool injected = false;
-  for (const auto* source : sources_) injected |= source->add_stress_before(time.step, fields, columns, -1);
   const std::int64_t end = columns.last == layout_.shape()[0] ? layout_.padded_nx() : columns.last;
-  for (const auto& segment : of_row) {
-    const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
-    if (first >= last) continue;
-    auto rows = rows_;
-    rows.stress = fields.field(FieldRows<D>::normal_stress(0)) + first;
-    rows.pitch = fields.pitch;
-    const auto place = segment.place + (first - segment.first);
-    rows.memory = memory_.data() + place * mechanisms_ * parts_;
-    rows.shares = shares_.data() + place * mechanisms_ * moduli_;
-    if (axes_.size() > 0)
-      rows.axes = axes_.data() + segment.axes + (first - segment.first) * axis_values(D, segment.what);
-    segment.relax(last - first, rows);
-  }
-  if (!injected) return;
-  for (const auto* source : sources_) source->add_stress_before(time.step, fields, columns, 1);
+  injected_.without(double(time.step), fields, columns, [&] {
+    for (const auto& segment : of_row) {
+      const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
+      if (first >= last) continue;
+      auto rows = rows_;
+      rows.stress = fields.field(FieldRows<D>::normal_stress(0)) + first;
+      rows.pitch = fields.pitch;
+      const auto place = segment.place + (first - segment.first);
+      rows.memory = memory_.data() + place * mechanisms_ * parts_;
+      rows.shares = shares_.data() + place * mechanisms_ * moduli_;
+      if (axes_.size() > 0)
+        rows.axes = axes_.data() + segment.axes + (first - segment.first) * axis_values(D, segment.what);
+      segment.relax(last - first, rows);
+    }
+  });
 }
 
 template <int D, class Real>

@@ -29,9 +29,9 @@ template <int D, class Real>
 class RelaxingStress : public Effect<D, Real> {
  public:
   /// The medium of the scene must be unrelaxed (unrelax()), that of the domain StepwiseRelaxation::medium().
-  /// What `sources` put into the stress is no strain and does not relax.
+  /// What sources inject does not relax.
   RelaxingStress(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
-                 std::vector<const PointSource<D, Real>*> sources);
+                 InjectedStress<D, Real> injected);
 
   EffectDeclaration declaration() const override {
     return {ActsOn::nothing, false, all_stresses<D>, all_stresses<D>, true, true};
@@ -73,7 +73,7 @@ class RelaxingStress : public Effect<D, Real> {
                               std::int64_t x) const;
 
   const Layout<D>& layout_;
-  std::vector<const PointSource<D, Real>*> sources_;
+  InjectedStress<D, Real> injected_;
   int every_, mechanisms_, parts_, moduli_;
   Relaxing what_;
   std::int64_t cells_ = 0, stored_ = 0, axes_stored_ = 0;

@@ -11,15 +11,16 @@ namespace slipwave::solver {
 template <int D>
 FractureCells<D>::FractureCells(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
                                 std::size_t set, CellKind kind)
-    : set_(set), kind_(kind) {
+    : set_(set), kind_(kind), continues_(continues_outside(model, set)) {
   std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // line, block of columns
   constexpr auto block = Layout<D>::block;
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     if (!belongs(model, cell)) continue;
-    const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
-    const std::pair in{layout.line_number(at), at[0] / block};
-    if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
-    ++cells_;
+    domain.each_like(model.grid().index(std::int64_t(cell)), continues_, [&](const Index<D>& at) {
+      const std::pair in{layout.line_number(at), at[0] / block};
+      if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
+      ++cells_;
+    });
   }
   std::sort(blocks.begin(), blocks.end());
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
@@ -45,16 +46,16 @@ bool FractureCells<D>::belongs(const Model<D>& model, std::size_t cell) const {
 
 template <int D>
 void FractureCells<D>::each(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
-                            const std::function<void(std::size_t, std::size_t)>& with) const {
+                            const std::function<void(std::size_t, std::size_t, bool)>& with) const {
   for (std::int64_t line = 0; line < layout.lines(); ++line)
     for (const auto& segment : segments(line))
       for (std::int64_t x = segment.first; x < std::min(segment.last, layout.shape()[0]); ++x) {
         auto at = layout.line_index(line);
         at[0] = x;
         const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
-        const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
-        if (!inside || !belongs(model, cell)) continue;
-        with(segment.place + std::size_t(x - segment.first), cell);
+        const bool inside = domain.in_model(at);
+        if ((inside || continues_) && belongs(model, cell))
+          with(segment.place + std::size_t(x - segment.first), cell, inside);
       }
 }
 

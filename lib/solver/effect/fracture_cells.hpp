@@ -15,7 +15,8 @@ namespace slipwave::solver {
 enum class CellKind { all, whole, cut };
 
 /// This list says where the cells of one fracture set are stored: those of a row form segments of whole
-/// vectors, in which cells of other sets or none may stand among them.
+/// vectors, in which cells of other sets or none may stand among them. Sets that continue outside the model
+/// (continues_outside()) have cells in zones, too.
 template <int D>
 class FractureCells {
  public:
@@ -40,15 +41,17 @@ class FractureCells {
     return std::int64_t(segments_.size() * sizeof(Segment) + starts_.size() * sizeof(std::size_t));
   }
 
-  /// Hands out each cell of the set: its place among the stored ones and its number in the model.
+  /// Hands out each cell of the set: its place among the stored ones, the number of the cell of the model
+  /// that it is or is like, and whether it is that.
   void each(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
-            const std::function<void(std::size_t place, std::size_t in_model)>& with) const;
+            const std::function<void(std::size_t place, std::size_t cell, bool in_model)>& with) const;
 
  private:
   bool belongs(const Model<D>& model, std::size_t cell) const;
 
   std::size_t set_;
   CellKind kind_;
+  bool continues_;
   std::vector<Segment> segments_;
   std::vector<std::size_t> starts_;  // of each line, and the end
   std::size_t stored_ = 0;

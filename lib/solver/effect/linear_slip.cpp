@@ -157,7 +157,52 @@ bool carries_no_stress(const FractureSet<D>& set, const Medium<D>& medium, std::
   return is_positive(left);
 }
 
+/// The stiffness of rock and springs together (S26b), in the axes of the grid.
+template <int D>
+Elasticity<D> stiffness_with_springs(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell) {
+  constexpr std::size_t n = Elasticity<D>::components;
+  const auto rock = rock_in_grid(medium, cell);
+  const auto each_pair = [](const auto& with) {
+    for (int i = 0; i < D; ++i)
+      for (int j = i; j < D; ++j) with(i, j, Elasticity<D>::pair(i, j));
+  };
+  SmallMatrix<n> compliance{};
+  each_pair([&](int k, int l, std::size_t of_stress) {
+    Tensor<D> unit;
+    unit(k, l) = 1;
+    const auto alone = strain_of<D>(unit, rock), of_planes = strain_of_planes<D>(set, unit, rock.upright);
+    each_pair([&](int i, int j, std::size_t of_strain) {
+      compliance[of_strain][of_stress] = (i == j ? 1 : 2) * (alone(i, j) + of_planes(i, j));
+    });
+  });
+  Elasticity<D> stiffness;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::array<double, n> unit{};
+    unit[k] = 1;
+    stiffness.voigt[k] = solved(compliance, unit);
+  }
+  return stiffness;
+}
+
 }  // namespace
+
+template <int D>
+std::function<std::optional<Elasticity<D>>(const Index<D>&)> stiffness_among_planes(const Domain<D>& domain,
+                                                                                    const Model<D>& model) {
+  if (model.fracture.empty()) return {};
+  // Neighbours are asked for one after the other, and most of them are alike.
+  return [&, last = std::size_t(0), rock = Material{},
+          stiffness = Elasticity<D>{}](const Index<D>& at) mutable -> std::optional<Elasticity<D>> {
+    const auto cell = std::size_t(model.grid().flat(domain.model_cell(at)));
+    const std::size_t code = model.fracture[cell];
+    if (code == 0 || !continues_outside(model, code - 1)) return {};
+    if (const auto here = material_of(model.medium, cell); code != last || here != rock) {
+      last = code, rock = here;
+      stiffness = stiffness_with_springs(model.fracture_sets[code - 1], model.medium, cell);
+    }
+    return stiffness;
+  };
+}
 
 template <int D>
 std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& model) {
@@ -171,19 +216,22 @@ std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& mo
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     const std::size_t code = model.fracture[cell];
     if (code == 0 || !undamped[code - 1] || is_cut(model, cell)) continue;
-    if (carries_no_stress(model.fracture_sets[code - 1], model.medium, cell))
-      cells.push_back(domain.grid.flat(domain.computed_cell(model.grid().index(std::int64_t(cell)))));
+    if (!carries_no_stress(model.fracture_sets[code - 1], model.medium, cell)) continue;
+    domain.each_like(model.grid().index(std::int64_t(cell)), continues_outside(model, code - 1),
+                     [&](const Index<D>& at) { cells.push_back(domain.grid.flat(at)); });
   }
+  std::sort(cells.begin(), cells.end());
   return cells;
 }
 
 template <int D, class Real>
 LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                double dt_s, double unit)
+                                double dt_s, double unit, InjectedStress<D, Real> injected)
     : state_(state),
       domain_(domain),
       model_(scene.model),
       unit_(unit),
+      injected_(std::move(injected)),
       ahead_(scene.numerics.correction == SlipCorrection::first ? Real(0) : Real(0.5)) {
   const auto askew = askew_sets(scene);
   for (std::size_t number = 0; number < model_.fracture_sets.size(); ++number) {
@@ -220,7 +268,7 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells,
 
 template <int D, class Real>
 void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
-  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell, bool) {
     const auto rock = upright_elasticity<D>(material_of(model_.medium, cell));
     const auto& system = group.set->systems[0];
     const double modulus = modulus_across<D>(system.normal, rock), mu = rock(5, 5);
@@ -267,7 +315,7 @@ static void each_entry(const Rock<D>& rock, const StrainOf& strain_of, const Put
 template <int D, class Real>
 void LinearSlip<D, Real>::add_crossing(Group& group) const {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
-  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell, bool) {
     const auto rock = rock_in_grid(model_.medium, cell);
     const auto strain_of = [&](const Tensor<D>& stress) {
       return is_cut(model_, cell) ? strain_of_part<D>(*group.set, model_, cell, stress)
@@ -291,7 +339,7 @@ void LinearSlip<D, Real>::add_single(Group& group) const {
       auto& sum = cells[crossed.cell];
       for (std::size_t k = 0; k < n * n; ++k) sum.strain[k] += crossed.strain[k];
     }
-  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell, bool) {
     const auto rock = rock_in_grid(model_.medium, cell);
     const auto& of = cells[cell];
     const auto strain_of = [&](const Tensor<D>& stress) {
@@ -311,7 +359,7 @@ void LinearSlip<D, Real>::add_single(Group& group) const {
 /// Columns end between two vectors or with the row.
 template <int D, class Real>
 void LinearSlip<D, Real>::each_segment(
-    const RowFields<Real>& fields, const IndexRange& columns,
+    const StepTime& time, const RowFields<Real>& fields, const IndexRange& columns,
     typename LinearSlipKernels<Real>::Kernel LinearSlipKernels<Real>::*kernel) {
   const std::int64_t end =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
@@ -321,22 +369,29 @@ void LinearSlip<D, Real>::each_segment(
       const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
       if (first >= last) continue;
       const auto place = segment.place + std::size_t(first - segment.first);
-      (group.kernels.*kernel)(
-          last - first, group.planes,
-          {stress + first, fields.pitch, group.memory.data() + place, group.coefficients.data() + place,
-           std::int64_t(group.places.stored()), ahead_});
+      const auto act = [&] {
+        (group.kernels.*kernel)(
+            last - first, group.planes,
+            {stress + first, fields.pitch, group.memory.data() + place, group.coefficients.data() + place,
+             std::int64_t(group.places.stored()), ahead_});
+      };
+      if (group.set->is_cluster() && !group.of.slides)
+        injected_.without(double(time.step) + 0.5, fields, {first, last}, act);
+      else
+        act();
     }
 }
 
 template <int D, class Real>
-void LinearSlip<D, Real>::apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) {
-  each_segment(fields, cells, &LinearSlipKernels<Real>::end);
+void LinearSlip<D, Real>::apply(const StepTime& time, const RowFields<Real>& fields,
+                                const IndexRange& cells) {
+  each_segment(time, fields, cells, &LinearSlipKernels<Real>::end);
 }
 
 template <int D, class Real>
-void LinearSlip<D, Real>::apply_after_record(const StepTime&, const RowFields<Real>& fields,
+void LinearSlip<D, Real>::apply_after_record(const StepTime& time, const RowFields<Real>& fields,
                                              const IndexRange& cells) {
-  each_segment(fields, cells, &LinearSlipKernels<Real>::begin);
+  each_segment(time, fields, cells, &LinearSlipKernels<Real>::begin);
 }
 
 template <int D, class Real>
@@ -423,16 +478,18 @@ template <int D, class Real>
 double LinearSlip<D, Real>::stored_energy() const {
   double energy = 0;
   for (const auto& group : groups_)
-    group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-      const auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
-      if (!domain_.owns(at[D - 1])) return;
-      const double height = domain_.model_grid.height(domain_.model_cell(at));
-      energy += std::pow(domain_.grid.spacing_m, D - 1) * height * stored_energy(group, place, cell);
-    });
+    group.places.each(
+        state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell, bool in_model) {
+          const auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
+          if (!in_model || !domain_.owns(at[D - 1])) return;
+          const double height = domain_.model_grid.height(domain_.model_cell(at));
+          energy += std::pow(domain_.grid.spacing_m, D - 1) * height * stored_energy(group, place, cell);
+        });
   return energy;
 }
 
 SLIPWAVE_INSTANTIATE_D(FUNCTION, soft_cells);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, stiffness_among_planes);
 SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class LinearSlip);
 
 }  // namespace slipwave::solver

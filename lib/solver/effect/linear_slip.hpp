@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/effect/effect.hpp"
 #include "solver/effect/fracture_cells.hpp"
+#include "solver/effect/point_source.hpp"
 #include "solver/kernels/linear_slip_kernels.hpp"
 
 namespace slipwave::solver {
@@ -18,14 +21,21 @@ constexpr double softness_without_stress = 100;
 template <int D>
 std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& model);
 
+/// Returns what is Domain::among_planes of these; it keeps references.
+template <int D>
+std::function<std::optional<Elasticity<D>>(const Index<D>& at)> stiffness_among_planes(
+    const Domain<D>& domain, const Model<D>& model);
+
 /// Planes that give way as springs, with or without dashpots, in all fracture cells that have such planes
 /// (theory/fractures.md). It acts before slip at the end of a step and after it at the beginning of the next,
 /// so that friction is above the springs. Keeps references.
 template <int D, class Real>
 class LinearSlip : public Effect<D, Real> {
  public:
+  /// A moment in a cluster is one of its effective medium: springs do not give way to what sources inject
+  /// (S26a). Below friction they do, as friction does, and beside single fractures it is one of the rock.
   LinearSlip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
-             double unit = 1);
+             double unit = 1, InjectedStress<D, Real> injected = {});
 
   EffectDeclaration declaration() const override {
     return {ActsOn::fracture_cells, false, all_stresses<D>, all_stresses<D>, true};
@@ -33,8 +43,9 @@ class LinearSlip : public Effect<D, Real> {
   std::string name() const override { return "linear slip"; }
   std::int64_t cells() const override;
   std::vector<EffectShare> shares() const override;
-  void apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
-  void apply_after_record(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void apply(const StepTime& time, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void apply_after_record(const StepTime& time, const RowFields<Real>& fields,
+                          const IndexRange& cells) override;
   void serialize(Archive& archive) override;
   void exchange(const IndexRange& rows,
                 const std::function<void(Real* values, std::int64_t count)>& to) override;
@@ -61,13 +72,14 @@ class LinearSlip : public Effect<D, Real> {
   void add_crossing(Group& group) const;
   void add_single(Group& group) const;
   double stored_energy(const Group& group, std::size_t place, std::size_t cell) const;
-  void each_segment(const RowFields<Real>& fields, const IndexRange& cells,
+  void each_segment(const StepTime& time, const RowFields<Real>& fields, const IndexRange& cells,
                     typename LinearSlipKernels<Real>::Kernel LinearSlipKernels<Real>::*kernel);
 
   State<D, Real>& state_;
   const Domain<D>& domain_;
   const Model<D>& model_;
   double unit_;
+  InjectedStress<D, Real> injected_;
   Real ahead_;
   std::vector<Group> groups_;
 };

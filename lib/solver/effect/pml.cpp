@@ -70,6 +70,12 @@ class BackwardGroupVelocity {
  public:
   explicit BackwardGroupVelocity(int axis) : axis_(axis) {}
   double operator()(const Domain<D>& domain, const Index<D>& at) {
+    if (domain.among_planes)
+      if (const auto c = domain.among_planes(at)) {
+        if (*c != last_) last_ = *c, of_last_ = find(*c);
+        return of_last_;
+      }
+    if (!domain.anisotropic()) return 0;
     if (const auto* const cell = domain.anisotropic_cell(at)) {
       const auto& media = domain.anisotropic_media();
       if (of_media_.empty()) of_media_.assign(media.size(), not_known);
@@ -295,7 +301,7 @@ void Pml<D, Real>::find_growing(int axis, const Domain<D>& domain, double alpha,
       // A slice one cell thick between mirrors stands for all of the space: no plate.
       if (across != axis && layout_.shape()[std::size_t(across)] > 1)
         find_plates(axis, side, across, domain, alpha, ranks);
-    if (domain.anisotropic()) find_turning(axis, side, domain);
+    if (domain.anisotropic() || domain.among_planes) find_turning(axis, side, domain);
     if (axis < D - 1 && !domain.curvilinear_rows.empty()) find_slopes(axis, side, domain);
   }
 }
@@ -318,7 +324,8 @@ std::array<bool, 2> Pml<D, Real>::sides_that_match(int axis, const Domain<D>& do
     Rock rock{};
     for (int along = 0; along < D; ++along) rock[std::size_t(along)] = domain.courant(at, along, 0);
     rock[D] = domain.impedance(wave_p)(at), rock[D + 1] = domain.impedance(wave_s)(at);
-    rock[D + 2] = domain.curvilinear(at[D - 1]) || !is_isotropic(domain, at);
+    rock[D + 2] = domain.curvilinear(at[D - 1]) || !is_isotropic(domain, at) ||
+                  (domain.among_planes && domain.among_planes(at));
     return rock;
   };
   const auto fits = [](const Rock& rock) {

@@ -93,20 +93,13 @@ template <int D, class Real>
 void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fields,
                                  const IndexRange& cells) {
   if (!gives(time)) return;
-  const auto values = values_of(fields.row);
-  if (values.empty()) return;
-  const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s() - delay_s_);
-  const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
-  const double before = counts ? energy_of(fields.row, cells) : 0;
-  for (const auto& value : values) {
-    const std::int64_t x = state_.layout.column(value.place);
-    if (x >= cells.first && x < cells.last) fields.first[value.place] += Real(amount * value.weight);
-  }
-  if (counts) work_[std::size_t(fields.row)] += energy_of(fields.row, cells) - before;
+  add_to(fields, cells, unit_ * 0.5 * time.dt_s * wavelet_(time.end_s() - delay_s_),
+         [](const auto&) { return true; });
 }
 
 template <int D, class Real>
 std::span<const ValueWeight> PointSource<D, Real>::values_of(std::int64_t row) const {
+  if (values_.empty() || row < values_.front().line || row > values_.back().line) return {};
   const auto [first, last] = std::equal_range(
       values_.begin(), values_.end(), ValueWeight{.line = row},
       [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
@@ -114,18 +107,35 @@ std::span<const ValueWeight> PointSource<D, Real>::values_of(std::int64_t row) c
 }
 
 template <int D, class Real>
-bool PointSource<D, Real>::add_stress_before(std::int64_t step, const RowFields<Real>& fields,
-                                             const IndexRange& cells, double times) const {
-  const double given = times * given_[std::min(std::size_t(step), given_.size() - 1)];
+bool PointSource<D, Real>::add_stress(double steps, const RowFields<Real>& fields, const IndexRange& cells,
+                                      double times) {
+  const auto step = std::min(std::size_t(steps), given_.size() - 1),
+             next = std::min(step + 1, given_.size() - 1);
+  const double given =
+      times * (given_[step] + (steps - double(std::size_t(steps))) * (given_[next] - given_[step]));
   if (given == 0) return false;
+  const auto first_stress = FieldRows<D>::normal_stress(0) * state_.layout.row_pitch();
+  return add_to(fields, cells, given, [&](const ValueWeight& value) { return value.place >= first_stress; });
+}
+
+/// Adds an amount times the weights of chosen values of these cells, and counts the work; whether there were
+/// any.
+template <int D, class Real>
+template <class Chosen>
+bool PointSource<D, Real>::add_to(const RowFields<Real>& fields, const IndexRange& cells, double amount,
+                                  const Chosen& chosen) {
+  const auto values = values_of(fields.row);
+  if (values.empty()) return false;
+  const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
+  const double before = counts ? energy_of(fields.row, cells) : 0;
   bool any = false;
-  for (const auto& value : values_of(fields.row)) {
+  for (const auto& value : values) {
     const std::int64_t x = state_.layout.column(value.place);
-    if (x < cells.first || x >= cells.last) continue;
-    if (value.place < FieldRows<D>::normal_stress(0) * state_.layout.row_pitch()) continue;
-    fields.first[value.place] += Real(given * value.weight);
+    if (x < cells.first || x >= cells.last || !chosen(value)) continue;
+    fields.first[value.place] += Real(amount * value.weight);
     any = true;
   }
+  if (counts) work_[std::size_t(fields.row)] += energy_of(fields.row, cells) - before;
   return any;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
@@ -41,10 +43,9 @@ class PointSource : public Effect<D, Real> {
                           const IndexRange& cells) override {
     apply(time, fields, cells);
   }
-  /// Adds `times` all that the steps before that one have put into the stress of these cells; false where
-  /// that was nothing.
-  bool add_stress_before(std::int64_t step, const RowFields<Real>& fields, const IndexRange& cells,
-                         double times) const;
+  /// Adds `times` all that it has put into the stress of these cells after so many steps, of which half a one
+  /// is that before recording; false where that was nothing.
+  bool add_stress(double steps, const RowFields<Real>& fields, const IndexRange& cells, double times);
   void serialize(Archive& archive) override { archive.fixed(work_); }
   /// The energy put into the waves so far, J (2-D: J per metre); 0 unless the scene keeps a diary.
   void report(ShotReport& report) const override;
@@ -59,6 +60,8 @@ class PointSource : public Effect<D, Real> {
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   std::span<const ValueWeight> values_of(std::int64_t row) const;
+  template <class Chosen>
+  bool add_to(const RowFields<Real>& fields, const IndexRange& cells, double amount, const Chosen& chosen);
   double energy_of(std::int64_t row, const IndexRange& cells) const;
 
   State<D, Real>& state_;
@@ -76,6 +79,28 @@ class PointSource : public Effect<D, Real> {
   unsigned writes_ = 0;
   std::vector<double> given_;  // per unit of weight by all steps before each, up to the last that gives
   std::vector<double> work_;   // by line; empty: not counted
+};
+
+/// The stress that point sources have put into cells. It is no strain of the rock: where the rock gives way
+/// to its stress, by attenuation or as springs, it gives way to what is left without that.
+template <int D, class Real>
+class InjectedStress {
+ public:
+  InjectedStress() = default;
+  explicit InjectedStress(std::vector<PointSource<D, Real>*> sources) : sources_(std::move(sources)) {}
+
+  /// Calls act() while these cells are without what was put in after so many steps (PointSource::add_stress).
+  template <class Act>
+  void without(double steps, const RowFields<Real>& fields, const IndexRange& cells, const Act& act) const {
+    bool any = false;
+    for (auto* source : sources_) any |= source->add_stress(steps, fields, cells, -1);
+    act();
+    if (!any) return;
+    for (auto* source : sources_) source->add_stress(steps, fields, cells, 1);
+  }
+
+ private:
+  std::vector<PointSource<D, Real>*> sources_;
 };
 
 }  // namespace slipwave::solver

@@ -217,6 +217,7 @@ Field<D> Slip<D, Real>::field(SlipField which) const {
           if (!groups_[g].holds(place)) continue;
           auto at = state_.layout.line_index(line);
           at[0] = x;
+          if (!domain_.in_model(at)) continue;
           const Entry none;
           const auto& entry = diary_.empty() ? none : diary_[g][place];
           field(domain_.model_cell(at)) =
@@ -238,12 +239,13 @@ SlipTotals Slip<D, Real>::totals() const {
       for (const auto& segment : groups_[g].segments(line))
         for (auto place = segment.place; place < segment.place + std::size_t(segment.last - segment.first);
              ++place) {
+          auto cell = state_.layout.line_index(line);
+          cell[0] = segment.first + std::int64_t(place - segment.place);
+          if (!domain_.in_model(cell)) continue;
           totals.cells += groups_[g].holds(place);
           if (diary_.empty()) continue;
           const auto& entry = diary_[g][place];
           totals.slipped += entry.slip > 0;
-          auto cell = state_.layout.line_index(line);
-          cell[0] = segment.first + std::int64_t(place - segment.place);
           const double volume =
               square * domain_.model_grid.height(domain_.model_cell(cell)) / (unit_ * unit_);
           totals.dissipated += volume * entry.heat;

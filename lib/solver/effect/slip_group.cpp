@@ -154,7 +154,7 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     if (D == 2 || scene.slip_diary) stiffness_.assign(count_, {});
   }
   if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
-  places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell) {
+  places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell, bool) {
     const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
     const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
     double mu = shear_modulus_above_springs(systems, lambda, rock_mu, fracture_share_of(model, cell), dt_s);

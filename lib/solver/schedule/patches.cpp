@@ -22,11 +22,13 @@ Patches<D>::Patches(const Layout<D>& layout, const Domain<D>& domain, const Mode
   std::vector<std::vector<IndexRange>> all(std::size_t(layout.lines()));
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     if (model.fracture[cell] == 0) continue;
-    const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
-    auto& of_line = all[std::size_t(layout.line_number(at))];
-    if (of_line.empty() || at[0] - reach - of_line.back().last >= least_gap)
-      of_line.push_back({at[0] - reach, 0});
-    of_line.back().last = at[0] + reach + 1;
+    const bool continues = continues_outside(model, model.fracture[cell] - 1u);
+    domain.each_like(model.grid().index(std::int64_t(cell)), continues, [&](const Index<D>& at) {
+      auto& of_line = all[std::size_t(layout.line_number(at))];
+      if (of_line.empty() || at[0] - reach - of_line.back().last >= least_gap)
+        of_line.push_back({at[0] - reach, 0});
+      of_line.back().last = at[0] + reach + 1;
+    });
   }
   // Copies of a line know neither its ends nor the memory of the PML there.
   const std::int64_t nx = layout.shape()[0], low = domain.low_zone[0];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -58,7 +59,10 @@ class Domain {
   IndexRange band;                  // of which they are some: those of its cells, with no bands all
   std::vector<SplitFace<D>> split;  // of the computed grid, by axis and cell: no uniform run crosses these
   std::vector<std::int64_t> soft;   // cells that carry next to no stress (soft_cells())
-  int order = 1;                    // of the reconstruction, at most
+  /// The stiffness of a cell outside the model in which planes give way; empty where there are none. Refers
+  /// to the model, and is held as long as impedances are.
+  std::function<std::optional<Elasticity<D>>(const Index<D>& at)> among_planes;
+  int order = 1;  // of the reconstruction, at most
   /// The steps that a shot is simulated in; no medium where that is not known. Held as long as impedances
   /// are.
   struct Steps {
@@ -121,7 +125,7 @@ class Domain {
   }
   /// Frees their memory.
   void release_impedances() {
-    impedances_ = {}, more_ = {}, steps = {};
+    impedances_ = {}, more_ = {}, steps = {}, among_planes = {};
     if (D == 3) cells_ = {}, media_ = {};
   }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
@@ -170,6 +174,26 @@ class Domain {
   Index<D> computed_cell(Index<D> at) const {
     for (int axis = 0; axis < D; ++axis) at[axis] += low_zone[axis];
     return at;
+  }
+  bool in_model(const Index<D>& at) const { return computed_cell(model_cell(at)) == at; }
+  /// Calls with(at) for a cell of the model in the computed grid, with `zones` for those of zones that are
+  /// like it, too, ascending.
+  template <class With>
+  void each_like(const Index<D>& model_cell, bool zones, const With& with) const {
+    const Index<D> first = computed_cell(model_cell);
+    std::array<IndexRange, std::size_t(D)> cells;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const bool low = zones && model_cell[axis] == 0,
+                 high = zones && model_cell[axis] + 1 == model_grid.shape[axis];
+      cells[axis] = {low ? 0 : first[axis], high ? grid.shape[axis] : first[axis] + 1};
+    }
+    auto at = first;
+    const auto along = [&](const auto& self, int axis) -> void {
+      if (axis < 0) return with(std::as_const(at));
+      const auto& range = cells[std::size_t(axis)];
+      for (at[axis] = range.first; at[axis] < range.last; ++at[axis]) self(self, axis - 1);
+    };
+    along(along, D - 1);
   }
 
  private:
