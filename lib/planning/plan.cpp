@@ -430,28 +430,6 @@ std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
   return std::nullopt;
 }
 
-/// The first cluster at an absorbing edge that does not continue outside it.
-template <int D>
-std::optional<std::string> cluster_cut_by_an_edge(const Scene<D>& scene) {
-  const auto& model = scene.model;
-  for (std::size_t cell = 0; scene.slips() && cell < model.fracture.size(); ++cell) {
-    const std::size_t code = model.fracture[cell];
-    if (code == 0 || !model.fracture_sets[code - 1].is_cluster() || continues_outside(model, code - 1))
-      continue;
-    const auto at = model.grid().index(std::int64_t(cell));
-    for (std::size_t axis = 0; axis < D; ++axis)
-      for (const std::size_t side : {0, 1})
-        if (scene.edges[axis][side] == EdgeLaw::absorbing &&
-            at[axis] == (side ? model.grid().shape[axis] - 1 : 0))
-          return "the planes of '" + model.fracture_sets[code - 1].name + "' end at the absorbing edge at " +
-                 axis_names<D>()[axis] + "=" +
-                 shown(side ? model.grid().end(int(axis)) : model.grid().origin_m[axis], 4) +
-                 ", since friction may add energy beyond it: where they slip, waves come back from there. "
-                 "Put the edge as far away as these waves may be late";
-  }
-  return std::nullopt;
-}
-
 /// How many cells of one rock lie about a cell along the axis with the fewest, counted up to as many as a
 /// source can be spread over.
 template <int D>
@@ -550,8 +528,7 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
                         shown(medium.grid().spacing_m * cells / fewest_cells, 2) + " m (" +
                         shown(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost) or --error");
   };
-  const auto of_all = {source_in_a_fracture(scene), cluster_cut_by_an_edge(scene),
-                       motion_left_by_moments(scene)};
+  const auto of_all = {source_in_a_fracture(scene), motion_left_by_moments(scene)};
   const auto add = [&](const std::optional<std::string>& sentence) {
     if (sentence) sentences.push_back(*sentence);
   };

@@ -14,6 +14,7 @@ class PatchesOf {
     const Grid<2> grid{{nx, 3}, 5, {0, 0}};
     model_.medium = {Field<2>(grid, 3000), Field<2>(grid, 1500), Field<2>(grid, 2000)};
     model_.fracture = Field<2, std::uint8_t>(grid);
+    model_.fracture_sets = {{"cracks", {{{0, 1}, 0.3}}}};
     for (const auto& columns : fractured)
       for (auto x = columns.first; x < columns.last; ++x) model_.fracture({x, 1}) = 1;
     EdgeLaws<2> edges;
