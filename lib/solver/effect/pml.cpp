@@ -143,11 +143,12 @@ struct Losses {
   double before, after, of_increments, left, of_recent, of_newest, recent_left;
   /// Damping and sweep as two flows, the damping solved exactly (theory.md (E14a)); here the memory is that
   /// just after the sweep, where the decay between both halves is in the factors. `damped`, `shift`: d and
-  /// alpha times the length of the sweep.
-  static Losses split(double damped, double shift) {
-    const double sum = damped + shift, half = std::exp(-sum / 2);
+  /// alpha times the length of the sweep; `before`: the sweep before it along the axis, in terms of its
+  /// length.
+  static Losses split(double damped, double shift, double before) {
+    const double sum = damped + shift, half = std::exp(-sum / 2), half_before = std::exp(-sum * before / 2);
     const double loss = (1 - half) * damped / sum;
-    return {loss * half, loss * half * half, loss, half * half, 0, 1, 0};
+    return {loss * half_before, loss * half_before * half, loss, half_before * half, 0, 1, 0};
   }
   /// As much lost before a sweep as after it, which matches the steps (theory.md (E14d)).
   static Losses matched(double damped, double shift) {
@@ -252,6 +253,11 @@ auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const Times& times,
   // A sweep back in time undoes what one forward would damp: all together are one step.
   const double time = fraction_of(sweep) * times.dt_s;
   const double shift = alpha_of(times.slow_hz) * time;
+  // The first sweep of a step and the last are one.
+  auto before = sweep == 0 ? sweeps_.size() - 1 : sweep;
+  do before = (before + sweeps_.size() - 1) % sweeps_.size();
+  while (sweeps_[before].axis != sweeps_[sweep].axis);
+  const double length_before = fraction_of(before) / fraction_of(sweep);
   for (std::int64_t slot = 0; slot < layer.low + layer.high; ++slot) {
     const bool low = slot < layer.low;
     const auto width = inner_width(low ? layer.low : layer.high, settings);
@@ -259,7 +265,8 @@ auto Pml<D, Real>::make_factors(int axis, std::size_t sweep, const Times& times,
     const double depth = std::min((double(inside) + 0.5) / double(width), 1.);
     const auto& profile = layer.profiles[low ? 0 : 1];
     const double damped = profile.at(depth) * time;
-    const auto of = profile.matches(depth) ? Losses::matched(damped, shift) : Losses::split(damped, shift);
+    const auto of =
+        profile.matches(depth) ? Losses::matched(damped, shift) : Losses::split(damped, shift, length_before);
     // Where fields are prescribed there is nothing to damp.
     const double damps = inside < width ? 1 : 0;
     factors.before.push_back(Real(damps * of.before));
