@@ -322,6 +322,21 @@ TEST(PmlInSpace, StaysBoundedForThousandsOfSteps) {
     }
 }
 
+// Sweeps of a step of fourth order have several lengths, one of them back in time.
+// Proves (E14a).
+TEST(PmlAtFourthOrderInTime, StaysBoundedAtTheLongestStep) {
+  const ThreadLimit one_thread(1);
+  for (const bool water : {true, false}) {
+    auto medium = rock(31, 35);
+    for (std::size_t cell = 0; water && cell < medium.vp.size(); ++cell) put(medium, cell, {1500, 0, 1000});
+    const double hz = 0.02 * fastest_speed(medium) / medium.grid().spacing_m;
+    FittedLab<2, double> lab(medium, edges_below(EdgeLaw::free, EdgeLaw::absorbing), {7, 4, 2, 20, hz});
+    const double begin = lab.energy();
+    for (int n = 0; n < 1000; ++n) lab.step();
+    EXPECT_LT(lab.energy(), 0.5 * begin) << water;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(HardMedia, Pml, ::testing::ValuesIn(share_of(medium_names(), 1)),
                          [](const auto& info) { return info.param; });
 
