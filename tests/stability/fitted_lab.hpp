@@ -96,7 +96,7 @@ class FittedLab {
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
       const auto at = domain_.grid.index(n);
       const auto cell = std::size_t(medium_.grid().flat(domain_.model_cell(at)));
-      const bool in_model = domain_.computed_cell(domain_.model_cell(at)) == at;
+      const bool in_model = domain_.in_model(at);
       if (medium_.is_void(cell) || (pml_ && !in_model)) continue;
       const bool solid = medium_.is_solid(cell);
       const double z = double(medium_.rho[cell]) * medium_.vp[cell], pressure = z * uniform(engine);

@@ -77,7 +77,7 @@ Lab<Real>::Lab(const Setup& setup)
     const auto at = domain_.grid.index(n);
     const auto cell = std::size_t(model.grid().flat(domain_.model_cell(at)));
     if (model.medium.is_void(cell)) continue;
-    const bool in_model = domain_.computed_cell(domain_.model_cell(at)) == at;
+    const bool in_model = domain_.in_model(at);
     if (layer_ && !in_model) continue;
     const auto set = [&](int row, double value) {
       state_.field_row({0, at[1]}, row)[at[0]] = Real(setup.amplitude * value);

@@ -46,7 +46,7 @@ class InLayer {
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
       const auto at = domain_.grid.index(n);
-      if (domain_.computed_cell(domain_.model_cell(at)) != at) continue;
+      if (!domain_.in_model(at)) continue;
       const double zp = domain_.impedance(wave_p)(at), zs = domain_.impedance(wave_s)(at);
       const auto set = [&](int row, double value) { state_.field_row({0, at[1]}, row)[at[0]] = value; };
       const double pressure = zp * uniform(engine);

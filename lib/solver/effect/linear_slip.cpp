@@ -209,7 +209,7 @@ std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& mo
   std::vector<std::int64_t> cells;
   std::vector<char> undamped;  // by set: clusters of such springs
   for (const auto& set : model.fracture_sets)
-    undamped.push_back(gives(set) && set.traces.empty() &&
+    undamped.push_back(gives(set) && set.is_cluster() &&
                        std::none_of(set.systems.begin(), set.systems.end(),
                                     [](const auto& system) { return system.compliance.damped(); }));
   if (std::none_of(undamped.begin(), undamped.end(), [](char of) { return of; })) return cells;
@@ -238,7 +238,7 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
     const auto& set = model_.fracture_sets[number];
     if (!gives(set) || set.on_faces) continue;
     for (const auto kind : {CellKind::whole, CellKind::cut})
-      if (kind == CellKind::whole || (!model_.fracture_share.empty() && set.traces.empty()))
+      if (kind == CellKind::whole || (!model_.fracture_share.empty() && set.is_cluster()))
         add(set, FractureCells<D>(state.layout, domain, model_, number, kind), kind,
             askew[number][kind == CellKind::cut], dt_s);
   }
@@ -250,7 +250,7 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells,
   if (cells.cells() == 0) return;
   Group group{std::move(cells), &set, {}, {}, {}, {}, {}};
   const auto any = [&](const auto& has) { return std::any_of(set.systems.begin(), set.systems.end(), has); };
-  group.of = {D, set.systems.size() == 1 && set.traces.empty(),
+  group.of = {D, set.systems.size() == 1 && set.is_cluster(),
               any([](const auto& s) { return s.compliance.damped(); }),
               any([](const auto& s) { return s.slides(); })};
   // The rest of a cell holds springs of its part in all directions; and strains across planes askew and along
@@ -260,9 +260,7 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells,
   group.kernels = linear_slip_kernels<Real>(group.of);
   group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
   group.coefficients.assign(group.places.stored() * std::size_t(group.of.coefficient_rows()), 0);
-  !set.traces.empty()   ? add_single(group)
-  : group.of.one_family ? add_family(group, dt_s)
-                        : add_crossing(group);
+  !set.is_cluster() ? add_single(group) : group.of.one_family ? add_family(group, dt_s) : add_crossing(group);
   groups_.push_back(std::move(group));
 }
 
