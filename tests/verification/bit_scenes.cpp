@@ -69,8 +69,8 @@ Scene<2> sea(std::int64_t nx = long_form() ? 330 : 150) {
 }
 
 /// One rock between absorbing edges with the fractures of the sea.
-Scene<2> in_one_rock() {
-  auto scene = sea();
+Scene<2> in_one_rock(std::int64_t nx = long_form() ? 330 : 150) {
+  auto scene = sea(nx);
   scene.model.medium = uniform_medium(scene.model.grid().shape[0], 90, 5, rock);
   scene.edges[1][0] = absorbing;
   return scene;
@@ -325,6 +325,15 @@ BitScenes cut_cells() {
                      scene.snapshot_every_s = 0.02;
                      return scene;
                    }});
+  // Its rows are patches, in a copy, once the source is over; what that has left in the stress stays.
+  all.push_back({"CutCellsAfterTheirSource", [=] {
+                   auto scene = in_one_rock(330);
+                   scene.model.fracture = {}, scene.model.fracture_sets = {};
+                   add_fractures<2>(scene.model, {"slab", {springs}}, parse_slab("350,240:130,57:25"));
+                   scene.survey.blended = {};
+                   scene.survey.sources[0].wavelet = parse_wavelet("ricker:240");
+                   return scene;
+                 }});
   return all;
 }
 

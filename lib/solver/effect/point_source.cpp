@@ -132,7 +132,8 @@ bool PointSource<D, Real>::add_to(const RowFields<Real>& fields, const IndexRang
   for (const auto& value : values) {
     const std::int64_t x = state_.layout.column(value.place);
     if (x < cells.first || x >= cells.last || !chosen(value)) continue;
-    fields.first[value.place] += Real(amount * value.weight);
+    // Copies of a line have a pitch of their own.
+    fields.field(int(value.place / state_.layout.row_pitch()))[x] += Real(amount * value.weight);
     any = true;
   }
   if (counts) work_[std::size_t(fields.row)] += energy_of(fields.row, cells) - before;
