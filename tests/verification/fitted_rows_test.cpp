@@ -35,6 +35,26 @@ void expect_regular_rows_give_the_same(const Scene<D>& scene) {
   EXPECT_TRUE(samples_of(shoot(fitted, 1)) == expected);
 }
 
+/// Zones as wide as those that rows bend in, and wider.
+template <int D>
+void expect_depths_of_each_corner(const Scene<D>& scene) {
+  for (const int zone_cells : {3, 25}) {
+    const auto domain = make_domain(scene.model.medium, scene.edges, zone_cells);
+    const auto depths = corner_depths(domain);
+    Grid<D> corners;
+    for (std::size_t axis = 0; axis < D; ++axis) corners.shape[axis] = domain.grid.shape[axis] + 1;
+    ASSERT_EQ(std::int64_t(depths.size()), corners.size());
+    for (std::int64_t n = 0; n < corners.size(); ++n)
+      ASSERT_EQ(depths[std::size_t(n)], corner_depth(domain, corners.index(n))) << n;
+  }
+}
+
+// Proves (F10).
+TEST(CornerDepths, AreTheDepthOfEachCorner) {
+  expect_depths_of_each_corner(fitted_hills());
+  expect_depths_of_each_corner(fitted_sea_3d());
+}
+
 // Proves (F1), (F8).
 TEST(FittedRows, ThatAreAllOneCellHighGiveTheBitsOfARegularGrid) {
   for (const int order : orders) {

@@ -340,16 +340,16 @@ TEST(Records, OnAFreeSurfaceHaveTheSlopesWithWhichSweepsContinueIt) {
     const auto domain = under_a_free_surface(slope);
     const Point<2> at = {152.5, slope == 0 ? 0 : 20 + slope * 152.5};
     const auto recorded = [&](Component component) { return recorded_of(domain, at, component, linear); };
-    const auto continued = [&](int row) {
+    const auto continued = [&](std::size_t component) {
       double sum = 0;
-      const auto terms = surface_slope(domain, cell_at(domain, at), 1, 0, row);
-      for (const auto& term : terms) sum += term.weight * velocity_in(domain, term.cell, term.row, linear);
+      const auto slopes = surface_slopes(domain, cell_at(domain, at), 1, 0);
+      for (const auto& term : slopes[component])
+        sum += term.weight * velocity_in(domain, term.cell, term.row, linear);
       return sum;
     };
     // Per cell of 5 m, upwards.
-    EXPECT_NEAR(continued(FieldRows<2>::velocity(0)), -5 * (recorded(exz) + recorded(Component::curl) / 2),
-                1e-6);
-    EXPECT_NEAR(continued(FieldRows<2>::velocity(1)), -5 * recorded(ezz), 1e-6);
+    EXPECT_NEAR(continued(0), -5 * (recorded(exz) + recorded(Component::curl) / 2), 1e-6);
+    EXPECT_NEAR(continued(1), -5 * recorded(ezz), 1e-6);
     EXPECT_GT(std::abs(recorded(ezz)), 0.5);
   }
 }

@@ -26,32 +26,51 @@ int ghost_impedance(EdgeLaw law, Wave wave) {
 /// Shorter uniform runs are not worth loops of their own.
 constexpr std::int64_t shortest_run = 64;
 
-/// Depth in m of a corner counted in those of the whole model, from `axis` on; columns beyond a side of it
-/// continue as `side_rows` says (theory.md (F10)).
+/// Depth in m of a corner in the columns of the model, counted in the corners of the whole model.
 template <int D>
-double corner_of_rows(const Domain<D>& domain, Index<D> corner, int axis) {
+double depth_in_column(const Domain<D>& domain, Index<D> corner) {
   const auto& rows = *domain.model_grid.rows;
-  const std::int64_t last = rows.cells()[std::size_t(axis)], at = corner[std::size_t(axis)];
-  const std::int64_t nearest = std::clamp<std::int64_t>(at, 0, last);
-  corner[std::size_t(axis)] = nearest;
-  if (axis == D - 1) {
-    const double edge = rows.corner(corner);
-    if (at == nearest) return edge;
-    // Rows beyond level ones are as high as they: a column of them is what plane waves enter by (Column).
-    corner[D - 1] += at < 0 ? 1 : -1;
-    const bool level = domain.level_ends[at < 0 ? 0 : 1];
-    return edge +
-           double(at - nearest) * (level ? std::abs(edge - rows.corner(corner)) : domain.grid.spacing_m);
-  }
-  const double depth = corner_of_rows(domain, corner, axis + 1);
-  if (at == nearest) return depth;
-  corner[std::size_t(axis)] += at < 0 ? 1 : -1;
-  const double slope = depth - corner_of_rows(domain, corner, axis + 1);
-  const auto& [straight, bend] = domain.side_rows[std::size_t(axis)][at < 0 ? 0 : 1];
-  const double away = double(std::abs(at - nearest));
+  const std::int64_t at = corner[D - 1];
+  const std::int64_t nearest = std::clamp<std::int64_t>(at, 0, rows.cells()[D - 1]);
+  corner[D - 1] = nearest;
+  const double edge = rows.corner(corner);
+  if (at == nearest) return edge;
+  // Rows beyond level ones are as high as they: a column of them is what plane waves enter by (Column).
+  corner[D - 1] += at < 0 ? 1 : -1;
+  const bool level = domain.level_ends[at < 0 ? 0 : 1];
+  return edge + double(at - nearest) * (level ? std::abs(edge - rows.corner(corner)) : domain.grid.spacing_m);
+}
+
+/// A corner beyond a side of the model: on which side of an axis (0 low, 1 high), and by how many columns.
+struct BeyondSide {
+  int axis, side;
+  std::int64_t away;
+};
+
+/// Depth there in m, from that of the last column of the model, and of the one before it: columns continue as
+/// `side_rows` says (theory.md (F10)).
+template <int D>
+double depth_beyond(const Domain<D>& domain, const BeyondSide& of, double depth, double before) {
+  const double slope = depth - before;
+  const auto& [straight, bend] = domain.side_rows[std::size_t(of.axis)][std::size_t(of.side)];
+  const double away = double(of.away);
   // Of what bends, the integral of (1 - t/bend)^2.
   const double left = std::clamp(1 - (away - straight) / bend, 0., 1.);
   return depth + slope * (std::min(away, straight) + bend / 3 * (1 - left * left * left));
+}
+
+/// Depth in m of a corner counted in those of the whole model, from `axis` on.
+template <int D>
+double corner_of_rows(const Domain<D>& domain, Index<D> corner, int axis) {
+  if (axis == D - 1) return depth_in_column(domain, corner);
+  auto& place = corner[std::size_t(axis)];
+  const std::int64_t at = place;
+  place = std::clamp<std::int64_t>(at, 0, domain.model_grid.rows->cells()[std::size_t(axis)]);
+  const BeyondSide beyond{axis, at < 0 ? 0 : 1, std::abs(at - place)};
+  const double depth = corner_of_rows(domain, corner, axis + 1);
+  if (beyond.away == 0) return depth;
+  place += at < 0 ? 1 : -1;
+  return depth_beyond(domain, beyond, depth, corner_of_rows(domain, corner, axis + 1));
 }
 
 /// How much faster waves cross a cell of the model's or of a zone's rows than a regular one; infinite where
@@ -527,6 +546,50 @@ double corner_depth(const Domain<D>& domain, Index<D> corner) {
 }
 
 template <int D>
+std::vector<double> corner_depths(const Domain<D>& domain) {
+  Grid<D> corners;
+  Index<D> last = domain.model_grid.rows->cells(), from{};  // of the whole model; the first corner there
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    corners.shape[axis] = domain.grid.shape[axis] + 1;
+    from[axis] = domain.model_grid.first[axis] - domain.low_zone[axis];
+  }
+  std::vector<double> depths(std::size_t(corners.size()), 0);
+  const std::int64_t lines = D == 2 ? 1 : corners.shape[1], line = corners.shape[0];
+  // Columns of the model, then lines beyond it, then what is beyond the ends of lines.
+  parallel_for(corners.shape[D - 1], 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto row = begin; row < end; ++row) {
+      double* const plane = depths.data() + row * lines * line;
+      Index<D> at{};
+      at[D - 1] = from[D - 1] + row;
+      const auto each_beyond = [&](int axis, std::int64_t count, const auto& with) {
+        const auto first = -from[std::size_t(axis)], end_of_model = first + last[std::size_t(axis)];
+        for (std::int64_t n = 0; n < first; ++n) with(n, first, first + 1, BeyondSide{axis, 0, first - n});
+        for (auto n = end_of_model + 1; n < count; ++n)
+          with(n, end_of_model, end_of_model - 1, BeyondSide{axis, 1, n - end_of_model});
+      };
+      for (std::int64_t y = 0; y < lines; ++y) {
+        if constexpr (D == 3) at[1] = from[1] + y;
+        if (D == 3 && (at[1] < 0 || at[1] > last[1])) continue;
+        for (at[0] = 0; at[0] <= last[0]; ++at[0])
+          plane[y * line + at[0] - from[0]] = depth_in_column(domain, at);
+      }
+      if (D == 3)
+        each_beyond(1, lines, [&](auto y, auto edge, auto before, const BeyondSide& of) {
+          for (auto x = -from[0]; x <= last[0] - from[0]; ++x)
+            plane[y * line + x] = depth_beyond(domain, of, plane[edge * line + x], plane[before * line + x]);
+        });
+      for (std::int64_t y = 0; y < lines; ++y)
+        each_beyond(0, line,
+                    [&, of_line = plane + y * line](auto x, auto edge, auto before, const BeyondSide& of) {
+                      of_line[x] = depth_beyond(domain, of, of_line[edge], of_line[before]);
+                    });
+      for (std::int64_t n = 0; n < lines * line; ++n) plane[n] /= domain.grid.spacing_m;
+    }
+  });
+  return depths;
+}
+
+template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
                       const Subdomain& part, int order, double longer_steps) {
   constexpr int z = D - 1;
@@ -676,6 +739,7 @@ SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_of_loops);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, elasticity_at);
 SLIPWAVE_INSTANTIATE_D(TYPE, class Domain);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, corner_depth);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, corner_depths);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, make_domain);
 SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, fill_material);
 SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, energy_of_cell);

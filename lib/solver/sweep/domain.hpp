@@ -226,6 +226,9 @@ bool anisotropic_across_rows(const Domain<D>& domain, const Index<D>& cell) {
 /// their shape.
 template <int D>
 double corner_depth(const Domain<D>& domain, Index<D> corner);
+/// Returns those of all corners of the computed grid, x fastest.
+template <int D>
+std::vector<double> corner_depths(const Domain<D>& domain);
 
 /// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
 /// model; `order` is that of the reconstruction, or a higher one; steps of so many times the time step would

@@ -19,31 +19,23 @@ double& component(RowVector<D, double>& vector, int axis) {
   return vector.x;
 }
 
-/// The velocities round a cell of a free surface.
+/// The difference along `along` of the velocity `row` in cells of a free surface round one; nothing where
+/// there is none.
 template <int D>
-class AlongSurface {
- public:
-  AlongSurface(const Domain<D>& domain, const Index<D>& at, int axis, int side)
-      : domain_(domain), at_(at), axis_(axis), side_(side) {}
-
-  /// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
-  bool add_difference(int along, int row, double factor) {
-    for (std::size_t k = 0; k < offsets_along.size(); ++k) {
-      Index<D> offset{};
-      offset[std::size_t(along)] = offsets_along[k];
-      if (!add_term(domain_, at_, offset, row, factor * weights_along[k], terms_)) return false;
-      if (!ends_at_free_surface(domain_, terms_.back().cell, axis_, side_)) return false;
-    }
-    return true;
+std::optional<std::array<SurfaceTerm<D>, offsets_along.size()>> difference_along(const Domain<D>& domain,
+                                                                                 const Index<D>& at, int axis,
+                                                                                 int side, int along,
+                                                                                 int row) {
+  std::array<SurfaceTerm<D>, offsets_along.size()> terms;
+  for (std::size_t k = 0; k < offsets_along.size(); ++k) {
+    Index<D> offset{};
+    offset[std::size_t(along)] = offsets_along[k];
+    const auto term = surface_term(domain, at, offset, row, weights_along[k]);
+    if (!term || !ends_at_free_surface(domain, term->cell, axis, side)) return {};
+    terms[k] = *term;
   }
-  const std::vector<SurfaceTerm<D>>& terms() const { return terms_; }
-
- private:
-  const Domain<D>& domain_;
-  Index<D> at_;
-  int axis_, side_;
-  std::vector<SurfaceTerm<D>> terms_;
-};
+  return terms;
+}
 
 /// N of the first (side 0) or last face of the rows of a fitted grid at a cell beside it, and the height of
 /// this cell in cells.
@@ -71,8 +63,8 @@ std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, con
 }  // namespace
 
 template <int D>
-bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offset, int row, double weight,
-              std::vector<SurfaceTerm<D>>& terms) {
+std::optional<SurfaceTerm<D>> surface_term(const Domain<D>& domain, const Index<D>& at,
+                                           const Index<D>& offset, int row, double weight) {
   SurfaceTerm<D> term{at, row, weight};
   for (int axis = 0; axis < D; ++axis) {
     auto& place = term.cell[std::size_t(axis)];
@@ -81,15 +73,14 @@ bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offse
     const bool below = place < 0;
     if (!below && place < n) continue;
     const EdgeLaw law = domain.edges[axis][below ? 0 : 1];
-    if (law == EdgeLaw::free) return false;
+    if (law == EdgeLaw::free) return {};
     term.weight *= image_sign<D>(law, axis, row);
     place = below ? -1 - place : 2 * n - 1 - place;
     if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
     place = std::clamp<std::int64_t>(place, 0, n - 1);
   }
-  if (!alike(domain, at, term.cell)) return false;
-  terms.push_back(term);
-  return true;
+  if (!alike(domain, at, term.cell)) return {};
+  return term;
 }
 
 template <int D>
@@ -102,12 +93,14 @@ std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& 
 }
 
 template <int D>
-std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
-                                          int row, const Point<D>& shares) {
-  const double zs = domain.impedance(wave_s)(at);
+std::array<std::vector<SurfaceTerm<D>>, std::size_t(D)> surface_slopes(const Domain<D>& domain,
+                                                                       const Index<D>& at, int axis, int side,
+                                                                       const Point<D>& shares) {
   const bool curvilinear = domain.curvilinear(at[D - 1]);
   // On curvilinear rows sides keep the plain mirror image.
-  if (!ends_at_free_surface(domain, at, axis, side) || zs == 0 || (curvilinear && axis < D - 1)) return {};
+  if (!ends_at_free_surface(domain, at, axis, side) || domain.impedance(wave_s)(at) == 0 ||
+      (curvilinear && axis < D - 1))
+    return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {
     Index<D> next = before;
@@ -120,7 +113,9 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
   const auto c = elasticity_at(domain, at);
   const auto [normal, away] = surface_at(domain, at, axis, side);
   const auto over = inverse_of(christoffel<D>(c, normal));
-  AlongSurface<D> velocities(domain, at, axis, side);
+  std::array<std::vector<SurfaceTerm<D>>, std::size_t(D)> slopes;
+  std::array<bool, std::size_t(D)> known;
+  known.fill(true);
   for (int along = 0; along < D; ++along) {
     if (along == axis) continue;
     if (thin(domain, along)) {
@@ -132,11 +127,21 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     const auto bend =
         product_of(over, tractions<D>(c, normal, unit_vector<std::size_t(D)>(std::size_t(along))));
     for (int of = 0; of < D; ++of) {
-      const double factor = outward * bend[std::size_t(row)][std::size_t(of)];
-      if (factor != 0 && !velocities.add_difference(along, FieldRows<D>::velocity(of), factor)) return {};
+      const auto terms = difference_along(domain, at, axis, side, along, FieldRows<D>::velocity(of));
+      for (std::size_t component = 0; component < D; ++component) {
+        const double factor = outward * bend[component][std::size_t(of)];
+        if (factor == 0) continue;
+        known[component] = known[component] && terms;
+        for (std::size_t k = 0; terms && k < terms->size(); ++k) {
+          slopes[component].push_back((*terms)[k]);
+          slopes[component].back().weight *= factor;
+        }
+      }
     }
   }
-  return velocities.terms();
+  for (std::size_t component = 0; component < D; ++component)
+    if (!known[component]) slopes[component].clear();
+  return slopes;
 }
 
 template <int D, class Real>
@@ -203,7 +208,7 @@ void FreeSurface<D, Real>::find_corrections(const Domain<D>& domain, const std::
   tractions_ = SurfaceTractions<D, Real>(axis_, side_, size);
   const Layout<D> material(layout_.shape(), material_rows_of<D>(domain.material_kind()));
   for (const auto& at : cells)
-    if (!inside_ || corrected(at) >= 0)
+    if (corrects_all(domain, at))
       tractions_.add(domain, at, number(at), place_of(at, 0, 0),
                      material.cell(at) + row_b * material.row_pitch(),
                      [&](const Index<D>& cell, int behind, int row) {
@@ -221,10 +226,11 @@ void FreeSurface<D, Real>::find_corrections(const Domain<D>& domain, const Index
     return material.cell(at) + material_row * material.row_pitch();
   };
   const double outward = outward_ / (axis_ == D - 1 ? domain.height(at[D - 1]) : 1);
+  const auto slopes = surface_slopes(domain, at, axis_, side_);
   bool found = false;
   for (int pair = 0; pair < D; ++pair) {
     const int along = pair == 0 ? axis_ : axis_of_pair<D>(axis_, pair);
-    const auto terms = surface_slope(domain, at, axis_, side_, FieldRows<D>::velocity(along));
+    const auto& terms = slopes[std::size_t(along)];
     if (terms.empty()) continue;
     found = true;
     const auto begin = terms_.size();
@@ -270,6 +276,24 @@ std::int64_t FreeSurface<D, Real>::corrected(const Index<D>& at) const {
   if (empty()) return -1;
   const auto* const found = inside_cells_.find(layout_.line_number(at), at[0]);
   return found && found->corrected ? found - inside_cells_.cells.data() : -1;
+}
+
+template <int D, class Real>
+bool FreeSurface<D, Real>::corrects(const Index<D>& at, int pair) const {
+  if (empty()) return false;
+  const std::pair wanted(number(at), pair);
+  const auto found = std::lower_bound(
+      cells_.begin(), cells_.end(), wanted,
+      [](const Cell& one, const auto& other) { return std::pair(one.number, one.pair) < other; });
+  return found != cells_.end() && std::pair(found->number, found->pair) == wanted;
+}
+
+/// Whether all pairs of which there is motion are corrected.
+template <int D, class Real>
+bool FreeSurface<D, Real>::corrects_all(const Domain<D>& domain, const Index<D>& at) const {
+  for (int pair = 0; pair < D; ++pair)
+    if ((pair == 0 || !thin(domain, axis_of_pair<D>(axis_, pair))) && !corrects(at, pair)) return false;
+  return true;
 }
 
 template <int D, class Real>
@@ -343,8 +367,8 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, const
   tractions_.update(fields, material, first, last);
 }
 
-SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_slope);
-SLIPWAVE_INSTANTIATE_D(FUNCTION, add_term);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_slopes);
+SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_term);
 SLIPWAVE_INSTANTIATE_D(FUNCTION, surface_at);
 SLIPWAVE_INSTANTIATE_D_REAL(TYPE, class FreeSurface);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,21 +31,22 @@ constexpr Point<D> whole_shares() {
   return shares;
 }
 
-/// The correction of velocity at a free surface (side 0 low, 1 high of an axis) of a solid: the difference of
-/// the velocity `row` between cell j before the surface and its image beyond it, over 2 j + 1, as a sum of
-/// velocities of cells along the edge (theory.md (E11)), with such `shares` of what motion along each axis
+/// By component of velocity, the correction of velocity at a free surface (side 0 low, 1 high of an axis) of
+/// a solid: the difference between cell j before the surface and its image beyond it, over 2 j + 1, as a sum
+/// of velocities of cells along the edge (theory.md (E11)), with such `shares` of what motion along each axis
 /// adds. `at` is a cell of the edge. Empty where the image is not corrected: in fluid and void, beside them,
 /// beside strong interfaces and free surfaces of another axis, and on grids of a few cells along the edge (in
 /// 3-D: along both axes of it).
 template <int D>
-std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
-                                          int row, const Point<D>& shares = whole_shares<D>());
+std::array<std::vector<SurfaceTerm<D>>, std::size_t(D)> surface_slopes(
+    const Domain<D>& domain, const Index<D>& at, int axis, int side,
+    const Point<D>& shares = whole_shares<D>());
 
-/// Adds a field's value `offset` from a cell, which beyond an edge is that of its image. Returns false, and
-/// adds nothing, beyond a free surface and where the rock there is not like that of the cell.
+/// A field's value `offset` from a cell, which beyond an edge is that of its image; nothing beyond a free
+/// surface and where the rock there is not like that of the cell.
 template <int D>
-bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offset, int row, double weight,
-              std::vector<SurfaceTerm<D>>& terms);
+std::optional<SurfaceTerm<D>> surface_term(const Domain<D>& domain, const Index<D>& at,
+                                           const Index<D>& offset, int row, double weight);
 
 /// N of the surface where a cell ends on a side (0 low, 1 high) of an axis, in curvilinear rows with z = 1,
 /// and how far the first ghost is from it along the axis, in cells.
@@ -53,7 +55,7 @@ std::pair<Point<D>, double> surface_at(const Domain<D>& domain, const Index<D>& 
 
 /// Free surfaces across one axis on one side of cells (0 low, 1 high): an edge of the grid, or all faces
 /// between cells and void inside it. In sweeps across it holds the corrections of the antisymmetric extension
-/// of solids beyond (v even, s odd): the correction of velocity is surface_slope(); the correction of
+/// of solids beyond (v even, s odd): the correction of velocity is surface_slopes(); the correction of
 /// traction removes what sweeps along the surface have added to its tractions when a sweep across it begins,
 /// half of what they add in a whole step. And it holds what stands for no traction (SurfaceTractions).
 template <int D, class Real>
@@ -91,6 +93,8 @@ class FreeSurface {
   std::int64_t number(const Index<D>& at) const;
   /// Beside void: the number of a cell, or -1 where nothing is corrected.
   std::int64_t corrected(const Index<D>& at) const;
+  /// Whether a pair of the sweep across is corrected in a cell of the surface.
+  bool corrects(const Index<D>& at, int pair) const;
   /// The numbers of the cells in these columns of lines that follow each other, at an edge of its lines; at
   /// an edge of x whatever the columns.
   IndexRange numbers(const IndexRange& lines, const IndexRange& columns) const;
@@ -126,6 +130,7 @@ class FreeSurface {
   FreeSurface(const Layout<D>& layout, int axis, int side, bool inside);
   void find_corrections(const Domain<D>& domain, const std::vector<Index<D>>& cells);
   void find_corrections(const Domain<D>& domain, const Index<D>& at);
+  bool corrects_all(const Domain<D>& domain, const Index<D>& at) const;
   /// Place of a field of a cell of the surface, or of the one behind it, in what update_corrections() reads.
   std::int64_t place_of(const Index<D>& at, int behind, int row) const;
   SmallMatrix<std::size_t(D), Real> stiffness_across(const Domain<D>& domain, const Index<D>& at) const;

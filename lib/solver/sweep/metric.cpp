@@ -10,61 +10,37 @@
 
 namespace slipwave::solver {
 
-/// This table holds the depths of the corners of the computed grid, in cells: corner_depth() of each, found
-/// once.
+/// This table holds the depths of the corners of the computed grid, in cells, by place.
 template <int D>
 class CornerDepths {
  public:
-  explicit CornerDepths(const Domain<D>& domain) {
+  explicit CornerDepths(const Domain<D>& domain) : depths_(corner_depths(domain)) {
     for (int axis = 0; axis < D; ++axis) corners_.shape[axis] = domain.grid.shape[axis] + 1;
-    depths_.resize(std::size_t(corners_.size()));
-    parallel_for(corners_.size(), 1024, [&](std::int64_t begin, std::int64_t end, int) {
-      for (auto n = begin; n < end; ++n) depths_[std::size_t(n)] = corner_depth(domain, corners_.index(n));
-    });
+    for (std::size_t axis = 1; axis < D; ++axis)
+      strides_[axis] = strides_[axis - 1] * std::size_t(corners_.shape[axis - 1]);
   }
-  /// What they gain from a corner to the next along an axis, of a corner and of the next along another.
-  double gain(const Index<D>& corner, int axis, int other) const {
-    const auto place = std::size_t(corners_.flat(corner)), next = stride(axis),
-               beside = place + stride(other);
-    return (depths_[place + next] - depths_[place]) + (depths_[beside + next] - depths_[beside]);
+  /// Returns the place of a cell's first corner; corners along x follow each other.
+  std::size_t place(const Index<D>& cell) const { return std::size_t(corners_.flat(cell)); }
+  /// What the depth gains from a cell's first corners to the next along `step`, the mean along the horizontal
+  /// axis other than `axis`.
+  double mean_gain(std::size_t place, std::size_t axis, std::size_t step) const {
+    if (D == 2) return gain(place, step);
+    return (gain(place, step) + gain(place + strides_[1 - axis], step)) / 2;
   }
-  double gain(const Index<D>& corner, int axis) const {
-    const auto place = std::size_t(corners_.flat(corner));
-    return depths_[place + stride(axis)] - depths_[place];
-  }
+  /// Returns the slope of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
+  double slope_of_face(std::size_t place, std::size_t axis) const { return mean_gain(place, axis, axis); }
+  /// Height in cells of the face before a cell along a horizontal axis.
+  double height_of_face(std::size_t place, std::size_t axis) const { return mean_gain(place, axis, D - 1); }
+  std::size_t row_below(std::size_t place) const { return place + strides_[D - 1]; }
 
  private:
-  std::size_t stride(int axis) const {
-    std::int64_t corners = 1;
-    for (int n = 0; n < axis; ++n) corners *= corners_.shape[n];
-    return std::size_t(corners);
+  double gain(std::size_t place, std::size_t axis) const {
+    return depths_[place + strides_[axis]] - depths_[place];
   }
   Grid<D> corners_;
+  std::array<std::size_t, std::size_t(D)> strides_{1};
   std::vector<double> depths_;
 };
-
-namespace {
-
-/// What the depth of corners gains from a cell's first corners to the next along `step`, the mean along the
-/// horizontal axis other than `axis`.
-template <int D>
-double mean_gain(const CornerDepths<D>& depth, const Index<D>& cell, int axis, int step) {
-  return D == 3 ? depth.gain(cell, step, 1 - axis) / 2 : depth.gain(cell, step);
-}
-
-/// Returns the slope of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
-template <int D>
-double slope_of_face(const CornerDepths<D>& depth, const Index<D>& cell, int axis) {
-  return mean_gain(depth, cell, axis, axis);
-}
-
-/// Height in cells of the face before a cell along a horizontal axis.
-template <int D>
-double height_of_face(const CornerDepths<D>& depth, const Index<D>& cell, int axis) {
-  return mean_gain(depth, cell, axis, D - 1);
-}
-
-}  // namespace
 
 template <int D, class Real>
 Metric<D, Real>::Metric(const Domain<D>& domain) : curvilinear_(domain.curvilinear_rows) {
@@ -91,17 +67,27 @@ void Metric<D, Real>::find_fluid(const Domain<D>& domain) {
   }
 }
 
-/// Half of what belongs to the face before a cell along an axis, or to that behind the last one.
+/// Half of what belongs to the faces before some cells of a line along an axis, from `at` on.
 template <int D, class Real>
-void Metric<D, Real>::put_face(const CornerDepths<D>& depth, const Index<D>& at, int axis) {
-  if (axis < D - 1) return put(at, row_face + axis, height_of_face(depth, at, axis) / 2);
-  double square = 1;
-  for (int other = 0; other < D - 1; ++other) {
-    const double slope = slope_of_face(depth, at, other);
-    square += slope * slope;
-    put(at, row_n_face + other, -slope / 2);
+void Metric<D, Real>::put_faces(const CornerDepths<D>& depth, const Index<D>& at, int axis,
+                                std::int64_t count) {
+  const auto first = depth.place(at), cells = std::size_t(count);
+  if (axis < D - 1) {
+    Real* const face = place(at, row_face + axis);
+    for (std::size_t x = 0; x < cells; ++x)
+      face[x] = Real(depth.height_of_face(first + x, std::size_t(axis)) / 2);
+    return;
   }
-  put(at, row_over_face, 1 / std::sqrt(square));
+  Real* const over_face = place(at, row_over_face);
+  for (std::size_t x = 0; x < cells; ++x) {
+    double square = 1;
+    for (std::size_t other = 0; other < D - 1; ++other) {
+      const double slope = depth.slope_of_face(first + x, other);
+      square += slope * slope;
+      place(at, row_n_face + int(other))[x] = Real(-slope / 2);
+    }
+    over_face[x] = Real(1 / std::sqrt(square));
+  }
 }
 
 template <int D, class Real>
@@ -111,26 +97,24 @@ void Metric<D, Real>::fill(const Domain<D>& domain) {
   std::fill(values_.data(), values_.data() + values_.size(), Real(1));
   parallel_for(lines_a_row_ * cells_[D - 1], 8, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
-      Index<D> at = layout_.line_index(line);
-      for (at[0] = 0; at[0] < cells_[0]; ++at[0]) {
-        const auto beyond = [&](int axis) {
-          Index<D> next = at;
-          ++next[axis];
-          return next;
-        };
-        for (int axis = 0; axis < D; ++axis) {
-          put_face(depth, at, axis);
-          if (at[axis] + 1 == cells_[axis]) put_face(depth, beyond(axis), axis);
-        }
-        const double j = (height_of_face(depth, at, 0) + height_of_face(depth, beyond(0), 0)) / 2;
+      const Index<D> at = layout_.line_index(line);
+      for (int axis = 0; axis < D; ++axis) {
+        put_faces(depth, at, axis, axis == 0 ? cells_[0] + 1 : cells_[0]);
+        Index<D> last = at;
+        if (axis > 0 && ++last[axis] == cells_[axis]) put_faces(depth, last, axis, cells_[0]);
+      }
+      const auto first = depth.place(at);
+      Real *const over_j = place(at, row_over_j), *const stretch = place(at, row_stretch);
+      for (std::size_t x = 0; x < std::size_t(cells_[0]); ++x) {
+        const auto upper = first + x, lower = depth.row_below(upper);
+        const double j = (depth.height_of_face(upper, 0) + depth.height_of_face(upper + 1, 0)) / 2;
         double square = 1;  // of |N|
-        for (int axis = 0; axis < D - 1; ++axis) {
-          const double slope =
-              (slope_of_face(depth, at, axis) + slope_of_face(depth, beyond(D - 1), axis)) / 2;
+        for (std::size_t axis = 0; axis < D - 1; ++axis) {
+          const double slope = (depth.slope_of_face(upper, axis) + depth.slope_of_face(lower, axis)) / 2;
           square += slope * slope;
         }
-        put(at, row_over_j, 1 / j);
-        put(at, row_stretch, std::sqrt(square) / j);
+        over_j[x] = Real(1 / j);
+        stretch[x] = Real(std::sqrt(square) / j);
       }
     }
   });

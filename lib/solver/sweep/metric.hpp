@@ -68,11 +68,10 @@ class Metric {
   void fill(const Domain<D>& domain);
   void fill_ghosts(const Domain<D>& domain);
   void fill_ghosts_beyond(const Domain<D>& domain, const Index<D>& at, int axis, int side);
-  void put_face(const CornerDepths<D>& depth, const Index<D>& at, int axis);
+  void put_faces(const CornerDepths<D>& depth, const Index<D>& at, int axis, std::int64_t count);
   Real* place(const Index<D>& at, int of) {
     return values_.data() + layout_.cell(at) + of * layout_.row_pitch();
   }
-  void put(const Index<D>& at, int of, double value) { *place(at, of) = Real(value); }
 
   Index<D> cells_{};  // of the grid
   std::int64_t lines_a_row_ = 1;

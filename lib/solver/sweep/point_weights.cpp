@@ -275,13 +275,14 @@ class InterfaceErrors {
         Index<D> offset{};
         offset[std::size_t(along)] = offsets_along[k];
         const double difference = weights_along[k] * high / wide;
-        if (loads && load != 0 &&
-            !add_term(domain_, cell, offset, FieldRows<D>::velocity(motion), load * of_strain * difference,
-                      all))
+        const auto add = [&](int row, double weight) {
+          const auto term = surface_term(domain_, cell, offset, row, weight);
+          if (term) all.push_back(*term);
+          return term.has_value();
+        };
+        if (loads && load != 0 && !add(FieldRows<D>::velocity(motion), load * of_strain * difference))
           return false;
-        if (thrust != 0 && !add_term(domain_, cell, offset, FieldRows<D>::stress(along, velocity_),
-                                     thrust * difference, all))
-          return false;
+        if (thrust != 0 && !add(FieldRows<D>::stress(along, velocity_), thrust * difference)) return false;
       }
     }
     return true;
@@ -391,9 +392,11 @@ void add_surface_correction(const VelocityAtPoint<D>& value, int axis, int side,
   // The surface's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
   on_edge[axis] = domain.grid.centre(axis, last);
-  for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
-    for (const auto& term : surface_slope(domain, at.cell, axis, side, row, shares))
+  for (const auto& at : point_weights<D>(domain.grid, on_edge, usable)) {
+    const auto slopes = surface_slopes(domain, at.cell, axis, side, shares);
+    for (const auto& term : slopes[std::size_t(row)])
       weights.push_back(value_weight(layout, term.cell, term.row, at.weight * term.weight));
+  }
 }
 
 }  // namespace

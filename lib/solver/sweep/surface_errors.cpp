@@ -74,10 +74,11 @@ class MomentBelowSurface {
     const auto errors = errors_below_surface(domain_, edge_, axis_, along, velocity(), true).s[1];
     const double z = domain_.impedance_of_pair(axis_, pair_of<D>(axis_, velocity()))(edge_);
     const auto share = unit_vector<std::size_t(D)>(std::size_t(along));
-    for (const auto& [edge, sum] : sums(errors))
-      for (const auto& term : surface_slope(domain_, domain_.grid.index(edge), axis_, side_,
-                                            FieldRows<D>::velocity(velocity()), share))
+    for (const auto& [edge, sum] : sums(errors)) {
+      const auto slopes = surface_slopes(domain_, domain_.grid.index(edge), axis_, side_, share);
+      for (const auto& term : slopes[std::size_t(velocity())])
         all.push_back(value_weight(layout_, term.cell, term.row, -sum * term.weight / z));
+    }
   }
 
  private:

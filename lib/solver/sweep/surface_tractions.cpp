@@ -17,10 +17,12 @@ namespace {
 template <int D>
 struct Difference {
   struct Part {
-    Index<D> offset;
-    double weight;
+    Index<D> offset{};
+    double weight = 0;
   };
-  std::vector<Part> parts;
+  std::array<Part, 5> parts{};
+  std::size_t count = 0;
+  void add(const Index<D>& offset, double weight) { parts[count++] = {offset, weight}; }
 };
 
 template <int D>
@@ -29,7 +31,7 @@ Difference<D> first_difference(int along) {
   for (std::size_t k = 0; k < offsets_along.size(); ++k) {
     Index<D> offset{};
     offset[std::size_t(along)] = offsets_along[k];
-    difference.parts.push_back({offset, weights_along[k]});
+    difference.add(offset, weights_along[k]);
   }
   return difference;
 }
@@ -42,14 +44,14 @@ Difference<D> second_difference(int along, int other) {
   if (along == other) {
     for (const auto& [cells, weight] : {std::pair{-2, 0.125}, {-1, 0.5}, {0, -1.25}, {1, 0.5}, {2, 0.125}}) {
       offset[std::size_t(along)] = cells;
-      difference.parts.push_back({offset, weight});
+      difference.add(offset, weight);
     }
     return difference;
   }
   for (const int one : {-1, 1})
     for (const int two : {-1, 1}) {
       offset[std::size_t(along)] = one, offset[std::size_t(other)] = two;
-      difference.parts.push_back({offset, 0.25 * one * two});
+      difference.add(offset, 0.25 * one * two);
     }
   return difference;
 }
@@ -72,14 +74,14 @@ class Sums {
   /// Adds a difference of a field, of the cells of the surface or (1) of those behind; false where there is
   /// none.
   bool add(const Difference<D>& difference, int row, double factor, int behind = 0) {
-    std::vector<SurfaceTerm<D>> terms;
-    for (const auto& part : difference.parts) {
-      auto offset = part.offset;
+    for (std::size_t n = 0; n < difference.count; ++n) {
+      auto offset = difference.parts[n].offset;
       offset[std::size_t(end_.axis)] += behind * inward();
-      if (!add_term(domain_, at_, offset, row, factor * part.weight, terms)) return false;
-      terms.back().cell[std::size_t(end_.axis)] -= behind * inward();
-      if (!ends_at_free_surface(domain_, terms.back().cell, end_.axis, end_.side)) return false;
-      terms_.push_back({terms.back(), behind});
+      auto term = surface_term(domain_, at_, offset, row, factor * difference.parts[n].weight);
+      if (!term) return false;
+      term->cell[std::size_t(end_.axis)] -= behind * inward();
+      if (!ends_at_free_surface(domain_, term->cell, end_.axis, end_.side)) return false;
+      terms_.push_back({*term, behind});
     }
     return true;
   }
@@ -185,16 +187,6 @@ Point<D> entering_per_normal_traction(const Point<D>& normal) {
   return D == 2 ? Point<D>{std::sqrt(dot_product(normal, normal))} : normal;
 }
 
-/// Whether the extension beyond the surface is corrected there.
-template <int D>
-bool corrected(const Domain<D>& domain, const Index<D>& at, const End& end) {
-  auto components = axes_along(domain, end.axis);
-  components.push_back(end.axis);
-  return std::none_of(components.begin(), components.end(), [&](int component) {
-    return surface_slope(domain, at, end.axis, end.side, FieldRows<D>::velocity(component)).empty();
-  });
-}
-
 }  // namespace
 
 template <int D, class Real>
@@ -206,7 +198,7 @@ void SurfaceTractions<D, Real>::add(const Domain<D>& domain, const Index<D>& at,
                                     std::int64_t place, std::int64_t b, const Offset& offset) {
   const End end{axis_, side_};
   const bool curvilinear = domain.curvilinear(at[D - 1]);
-  if ((curvilinear && axis_ < D - 1) || domain.anisotropic_cell(at) || !corrected(domain, at, end)) return;
+  if ((curvilinear && axis_ < D - 1) || domain.anisotropic_cell(at)) return;
   std::vector<PairSums<D>> pairs = {normal_sums(domain, at, end)};
   if (curvilinear) add_bend(domain, at, end, axis_, pairs[0]);
   for (int pair = 1; pair < D; ++pair) {

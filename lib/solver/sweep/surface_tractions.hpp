@@ -28,7 +28,8 @@ class SurfaceTractions {
   /// Functions of this type return the offset of a field (`row`) of a cell of the surface, or of the one
   /// behind it (`behind` 1), from the first field of the cell that is added.
   using Offset = std::function<std::int64_t(const Index<D>& at, int behind, int row)>;
-  /// Adds a cell, with numbers that ascend; its places in the fields and of b in the material.
+  /// Adds a cell all of whose pairs are corrected, with numbers that ascend; its places in the fields and of
+  /// b in the material.
   void add(const Domain<D>& domain, const Index<D>& at, std::int64_t number, std::int64_t place,
            std::int64_t b, const Offset& offset);
   /// Once all are added.

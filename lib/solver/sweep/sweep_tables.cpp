@@ -32,17 +32,6 @@ bool free_surfaces_meet(const Domain<D>& domain) {
   return axes > 1;
 }
 
-/// Whether the order of the reconstruction rises away from an edge in line with a cell: from a corrected free
-/// surface, and where free surfaces `meet`, from any of a solid. Where plain images, near a second free
-/// surface say, let it reach further than corrected ones beside them, stresses at rest in the surface of a
-/// box grew (theory/interfaces.md).
-template <int D>
-bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side, bool meet) {
-  at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
-  if (meet) return domain.edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0;
-  return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
-}
-
 /// Adds the cells first to last, counted along an axis from one cell, that are in the grid.
 template <int D>
 void add_cells_along(const Grid<D>& grid, Index<D> at, int axis, std::int64_t first, std::int64_t last,
@@ -166,8 +155,14 @@ void SweepTables<D, Real>::find_stencils(const Domain<D>& domain) {
         at[std::size_t(axis)] += side;
         return number >= 0 ? of_void(number) : corrections[axis].slot(at);
       };
-      const RisesFrom<D> rises_from = [&domain, axis, meet](const Index<D>& at, int side) {
-        return order_rises_from(domain, at, axis, side, meet);
+      // The order rises away from an edge in line with a cell: from a corrected free surface, and where free
+      // surfaces `meet`, from any of a solid. Where plain images, near a second free surface say, let it
+      // reach further than corrected ones beside them, stresses at rest in the surface of a box grew
+      // (theory/interfaces.md).
+      const RisesFrom<D> rises_from = [this, &domain, axis, meet](Index<D> at, int side) {
+        at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
+        return meet ? edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0
+                    : surfaces[axis][side].corrects(at, 0);
       };
       stencils[std::size_t(axis)][std::size_t(pair)] =
           InterfaceStencils(StencilSearch<D>{.impedances = {&domain.impedance_of_pair(axis, pair)},
