@@ -68,6 +68,16 @@ std::vector<Parts> parts_of(const Medium<2>& medium) {
   return parts;
 }
 
+/// Returns by how much waves in fluid are slower than the fastest of all at least (FitHorizon).
+double rows_a_cell_of_fluid(const Medium<2>& medium) {
+  double of_all = 0, of_fluid = 0;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    of_all = std::max(of_all, double(medium.vp[cell]));
+    if (medium.is_fluid(cell)) of_fluid = std::max(of_fluid, double(medium.vp[cell]));
+  }
+  return of_fluid > 0 ? of_all / of_fluid : 1;
+}
+
 /// Depths at corners of columns from those at centres.
 std::vector<double> at_corners(const std::vector<double>& centres) {
   const std::size_t last = centres.size() - 1;
@@ -228,6 +238,8 @@ ImportFit fit_imported(const Model<2>& model, const ImportedHorizons& wanted) {
   if (wanted.surface) add("surface", "at " + wanted.surface->name(), depths_of(grid, *wanted.surface));
   if (wanted.floor) add("floor", "at " + wanted.floor->name(), depths_of(grid, *wanted.floor));
   if (wanted.find_floor) add("floor", "found", found_floor(grid, parts, wanted.sampled_m));
+  for (auto& horizon : horizons)
+    if (horizon.role == "floor") horizon.rows_a_cell_above = rows_a_cell_of_fluid(model.medium);
   const auto fit = fit_grid(grid, horizons, {true, true, true, true, false});
   if (!fit.grid.rows) return result;
   const std::int64_t floor_row = horizons.back().role == "floor" ? fit.rows.back() : -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -20,8 +21,10 @@ namespace {
 template <int D>
 std::vector<FitHorizon> horizons_of(const Grid<D>& from, const Grid<D>& to) {
   std::vector<FitHorizon> horizons;
+  std::int64_t above = 0;  // the row of the horizon before
   for (const auto& followed : from.rows->horizons()) {
-    FitHorizon horizon{followed.name, "horizon " + followed.name, followed.role, true, followed.row == 0, {}};
+    FitHorizon horizon{
+        followed.name, "horizon " + followed.name, followed.role, true, followed.row == 0, {}, 1};
     const bool level = from.rows->row_is_level(followed.row);
     for (auto at : corner_columns(to)) {
       for (std::size_t axis = 0; axis + 1 < D; ++axis)
@@ -29,6 +32,14 @@ std::vector<FitHorizon> horizons_of(const Grid<D>& from, const Grid<D>& to) {
       at[D - 1] = double(followed.row);
       horizon.depths_m.push_back(level ? from.rows->row(followed.row)[0] : from.rows->depth(at));
     }
+    // As many rows as it has, by their thickness.
+    double thinnest_m = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < horizon.depths_m.size(); ++n)
+      thinnest_m =
+          std::min(thinnest_m, horizon.depths_m[n] - (horizons.empty() ? 0 : horizons.back().depths_m[n]));
+    if (const double rows = double(followed.row - above); rows > 0 && thinnest_m > 0)
+      horizon.rows_a_cell_above = std::max(1., rows * from.spacing_m / thinnest_m);
+    above = followed.row;
     horizons.push_back(std::move(horizon));
   }
   return horizons;

@@ -23,7 +23,7 @@ constexpr double steepest = 1.5, gentle = 0.15, firm = 0.25;
 constexpr std::int64_t least_fade = 4;
 // With fewer between two interfaces the reconstruction has a low order (docs/theory/interfaces.md).
 constexpr std::int64_t least_rows = 3;
-// Layers of fewer rows have them counted by thickness alone.
+// Layers of fewer rows have them counted by thickness alone, and where they are slow have up to so many.
 constexpr std::int64_t thin_rows = 8;
 
 double smoothstep(double t) {
@@ -57,6 +57,7 @@ struct Knot {
   const std::vector<double>* depths_m = nullptr;  // null: level
   double mean_m = 0;
   bool strong = true;
+  double rows_a_cell_above = 1;
   std::int64_t row = 0;  // counted from z = 0
   double at(std::size_t column) const { return depths_m ? (*depths_m)[column] : mean_m; }
 };
@@ -131,13 +132,17 @@ void Rows<D>::set_knots(const std::vector<std::size_t>& chosen) {
   knots_.clear();
   const bool has_top = !chosen.empty() && horizons_[chosen.front()].is_top;
   if (!has_top) knots_.push_back({"top of the model"});
+  std::size_t next = 0;  // after the one taken before
   for (const std::size_t n : chosen) {
     const auto& horizon = horizons_[n];
     const auto depths = extent_of(columns_.size(), [&](std::size_t at) { return horizon.depths_m[at]; });
-    knots_.push_back({horizon.shown, &horizon.depths_m, depths.mean, horizon.strong, 0});
+    double rows_a_cell = horizon.rows_a_cell_above;
+    for (; next < n; ++next) rows_a_cell = std::min(rows_a_cell, horizons_[next].rows_a_cell_above);
+    ++next;
+    knots_.push_back({horizon.shown, &horizon.depths_m, depths.mean, horizon.strong, rows_a_cell, 0});
   }
   const std::int64_t rows = grid_.shape[D - 1];
-  knots_.push_back({"bottom of the model", nullptr, double(rows) * h(), true, rows});
+  knots_.push_back({"bottom of the model", nullptr, double(rows) * h(), true, 1, rows});
   knots_.front().row = std::llround(knots_.front().mean_m / h());
 }
 
@@ -172,7 +177,9 @@ std::string Rows<D>::count_rows(std::size_t k) {
   const auto fewest = std::int64_t(std::ceil(cells.largest / largest_height * (1 - 1e-9)));
   std::int64_t count = std::llround(cells.mean);
   if (count < thin_rows) {
-    count = std::max<std::int64_t>(count, std::clamp<std::int64_t>(most, 1, least_rows));
+    const auto free = std::int64_t(std::floor(cells.least * below.rows_a_cell_above * (1 + 1e-9)));
+    count =
+        std::max({count, std::clamp<std::int64_t>(most, 1, least_rows), std::min({most, free, thin_rows})});
   } else if (const auto aligned = std::llround(below.mean_m / h()) - above.row;
              aligned > 0 && std::abs(cells.mean / double(aligned) - 1) <= 0.1) {
     count = aligned;  // makes good what was rounded above

@@ -32,6 +32,9 @@ struct FitHorizon {
   bool strong = true;   // of solid, fluid and void: followed first, with rows down to a fifth of a cell
   bool is_top = false;  // nothing but void above: if followed, it becomes the top of the grid
   std::vector<double> depths_m;  // at the corners of all columns, x fastest (corner_columns())
+  /// So many rows a cell may what is right above it have, and the time step is that of regular rows: how much
+  /// slower its fastest wave is than that of the model.
+  double rows_a_cell_above = 1;
 };
 
 /// A grid and what it follows.
@@ -54,7 +57,8 @@ std::vector<Point<D>> corner_columns(const Grid<D>& grid);
 /// and 1.25, so that rows farther away stay regular; where the next horizon or the bottom is too near for
 /// that, and between level horizons, rows of a column are of one height. A layer has as many rows as its mean
 /// thickness in cells says, more where it would be thicker than 1.6 cells a row, and three at least, or as
-/// many as may be that thin: between two interfaces fewer rows leave the reconstruction a low order. What
+/// many as may be that thin: between two interfaces fewer rows leave the reconstruction a low order. Between
+/// horizons it has up to eight if they cost no time step (`rows_a_cell_above`). What
 /// crosses others, leaves the model, or would have rows thinner than a fifth of a cell (a third, where it is
 /// not strong) is left out and said, or is an Error where `choice.asked` and it is strong. Horizons on faces
 /// are followed with others, chosen or not: rows that bend would leave them. Where all lie on faces of the

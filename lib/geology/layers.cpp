@@ -363,6 +363,40 @@ bool goes_on(const std::vector<Layer>& layers, std::size_t i, const std::vector<
   });
 }
 
+/// The fastest P waves of a layer so far below its top, m/s; 0 in void.
+double fastest_in(const Layer& layer, double thickness_m) {
+  if (kind_of(layer) == Kind::nothing) return 0;
+  double fastest = 0;
+  for (const double depth : {0., thickness_m})
+    fastest = std::max(fastest, fastest_p_speed<3>(layer.at_depth(depth)));
+  double from_m = 0;
+  for (const auto& block : layer.profile) {
+    if (from_m < thickness_m) fastest = std::max(fastest, fastest_p_speed<3>(block.material));
+    from_m = block.to_m;
+  }
+  return fastest;
+}
+
+/// Returns for each layer down to `end_m` by how much its waves are slower at least than the fastest of all
+/// (FitHorizon). `tops` in m.
+std::vector<double> rows_a_cell_of(const std::vector<Layer>& layers,
+                                   const std::vector<std::vector<double>>& tops, double end_m) {
+  double of_all = 0;
+  std::vector<double> of_layers;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const bool last = i + 1 == layers.size();
+    double thinnest = end_m, thickest = 0;
+    for (std::size_t n = 0; n < tops[i].size(); ++n) {
+      const double thickness = std::min(last ? end_m : tops[i + 1][n], end_m) - tops[i][n];
+      thinnest = std::min(thinnest, thickness), thickest = std::max(thickest, thickness);
+    }
+    of_layers.push_back(fastest_in(layers[i], thickest));
+    if (thickest > 0) of_all = std::max(of_all, fastest_in(layers[i], std::max(thinnest, 0.)));
+  }
+  for (double& of : of_layers) of = of > 0 ? std::max(1., of_all / of) : 1;
+  return of_layers;
+}
+
 /// The top of a layer as a horizon, without depths. The floor is that of the sea: all above it is fluid.
 FitHorizon horizon_of(const std::vector<Layer>& layers, std::size_t i) {
   const Kind above = i ? kind_of(layers[i - 1]) : Kind::nothing, below = kind_of(layers[i]);
@@ -498,16 +532,20 @@ template <int D>
 Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, const FitChoice& choice) {
   check_pile(regular, layers);
   const auto columns = corner_columns(regular);
+  std::vector<std::vector<double>> tops;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    tops.emplace_back();
+    for (const auto& at : columns) tops.back().push_back(depth_of_kind(layers, i, at[0], D == 3 ? at[1] : 0));
+  }
+  const auto rows_a_cell = rows_a_cell_of(layers, tops, regular.end(D - 1));
   std::vector<FitHorizon> horizons;
   std::vector<std::size_t> layer_of;
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    if (goes_on<D>(layers, i, columns)) continue;
-    auto horizon = horizon_of(layers, i);
-    for (const auto& at : columns)
-      horizon.depths_m.push_back(depth_of_kind(layers, i, at[0], D == 3 ? at[1] : 0));
-    const auto [least, largest] = std::minmax_element(horizon.depths_m.begin(), horizon.depths_m.end());
-    if (*largest <= 0 || *least >= regular.end(D - 1)) continue;
-    horizons.push_back(std::move(horizon));
+    const auto [least, largest] = std::minmax_element(tops[i].begin(), tops[i].end());
+    if (*largest <= 0 || *least >= regular.end(D - 1) || goes_on<D>(layers, i, columns)) continue;
+    horizons.push_back(horizon_of(layers, i));
+    if (i > 0) horizons.back().rows_a_cell_above = rows_a_cell[i - 1];
+    horizons.back().depths_m = std::move(tops[i]);
     layer_of.push_back(i);
   }
   auto fit = fit_grid(regular, horizons, choice);

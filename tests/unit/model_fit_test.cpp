@@ -145,6 +145,25 @@ TEST(Fit, GivesBedsOfACellBetweenSolidsThreeRows) {
   }
 }
 
+TEST(Fit, GivesSlowBedsUpToEightRowsIfTheyCostNoTimeStep) {
+  // Thickness in cells of 4 m, Vp of the bed, rows: 3500 over Vp a cell, and by thickness alone.
+  for (const auto& [thickness_m, vp, rows] : {std::tuple(9.7, 1800., 4),
+                                              {13.1, 1800., 6},
+                                              {20.2, 1800., 8},
+                                              {39.8, 1800., 10},
+                                              {9.7, 3400., 3},
+                                              {21.9, 3400., 5}}) {
+    const auto bed = fit_layers(
+        grid_of(4, 200, 4),
+        {{0, 3000, 1500, 2200}, {401, vp, vp / 2, 1900}, {401 + thickness_m, 3500, 1900, 2300, 0.5}},
+        as_usual);
+    const auto first = bed.rows[1], last = bed.rows[2];
+    EXPECT_EQ(last - first, rows) << thickness_m << ' ' << vp;
+    if (vp > 3000) continue;
+    EXPECT_GE(heights(bed.grid, first, last)[0] * (1 + 1e-9), vp / 3500);
+  }
+}
+
 TEST(Fit, FindsRoomNearTheBottom) {
   const auto fit = fit_layers(grid_of(4, 20, 5), {{0, 1500, 0, 1000}, {98, 3000, 1500, 2200}}, as_usual);
   ASSERT_NE(fit.grid.rows, nullptr);
