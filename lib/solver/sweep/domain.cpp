@@ -128,6 +128,22 @@ class SideRowsFinder {
   std::int64_t zone(int axis, int side) const {
     return (side ? domain_.high_zone : domain_.low_zone)[std::size_t(axis)];
   }
+  /// Whether rows leave the model level along an axis at a cell, of which only the others count: beyond they
+  /// stay as they are.
+  bool is_level(Index<D> at, int axis, int side) const {
+    const auto& rows = *domain_.model_grid.rows;
+    for (int other = 0; other < D; ++other) at[std::size_t(other)] -= domain_.low_zone[other];
+    for (int n = 0; n < 1 << D; ++n) {
+      auto corner = at;
+      for (int other = 0; other < D; ++other) corner[std::size_t(other)] += n >> other & 1;
+      auto& place = corner[std::size_t(axis)];
+      place = side ? rows.cells()[std::size_t(axis)] : 0;
+      const double edge = rows.corner(corner);
+      place += side ? -1 : 1;
+      if (rows.corner(corner) != edge) return false;
+    }
+    return true;
+  }
   bool keeps_heights(int axis, int side) const {
     Index<D> shape = domain_.model_grid.rows->cells();
     shape[std::size_t(axis)] = 1;
@@ -138,6 +154,7 @@ class SideRowsFinder {
         at[std::size_t(other)] = rest % shape[std::size_t(other)] + domain_.low_zone[int(other)];
         rest /= shape[std::size_t(other)];
       }
+      if (is_level(at, axis, side)) continue;
       // Counted in the rows that are held.
       at[D - 1] -= domain_.model_grid.first[D - 1];
       const std::int64_t edge = side ? domain_.model_grid.shape[axis] - 1 : 0;
