@@ -31,7 +31,7 @@ std::string fault_of(const FractureSet<D>& set, const Medium<D>& medium, std::si
   if (!lie_askew(set, medium, cell)) return "";
   const bool tilted = has_tilted_axis(medium, cell);
   if (gives(set)) {
-    if (D == 3 && !set.traces.empty()) return "are springs of single fractures, expected isotropic rock";
+    if (D == 3 && !set.is_cluster()) return "are springs of single fractures, expected isotropic rock";
     const std::string springs = "are springs that slide or have dashpots";
     if (any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
       return askew<D>(springs, springs, tilted);

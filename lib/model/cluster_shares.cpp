@@ -17,7 +17,7 @@ void ClusterShares<D>::put(std::size_t cell) {
   for (const auto& [part, volume] : parts) {
     all += volume;
     const auto code = from_.fracture[part];
-    if (code != 0 && from_.fracture_sets[code - 1U].traces.empty())
+    if (code != 0 && from_.fracture_sets[code - 1U].is_cluster())
       filled[code] += volume * fracture_share_of(from_, part);
   }
   const auto most = std::max_element(filled.begin(), filled.end());

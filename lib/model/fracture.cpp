@@ -72,13 +72,13 @@ bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t c
   if (has_tilted_axis(medium, cell)) return true;
   // All other planes of 3-D meet two shear moduli.
   if (D == 3)
-    return !set.traces.empty() || set.systems.size() > 1 || is_orthorhombic(medium, cell) ||
+    return !set.is_cluster() || set.systems.size() > 1 || is_orthorhombic(medium, cell) ||
            !is_level<D>(set.systems[0].normal);
   for (const auto& trace : set.traces)
     for (std::size_t n = 1; n < trace.size(); ++n)
       if (trace[n][0] != trace[n - 1][0] && trace[n][D - 1] != trace[n - 1][D - 1]) return true;
-  return set.traces.empty() && std::any_of(set.systems.begin(), set.systems.end(),
-                                           [](const auto& system) { return is_oblique<D>(system.normal); });
+  return set.is_cluster() && std::any_of(set.systems.begin(), set.systems.end(),
+                                         [](const auto& system) { return is_oblique<D>(system.normal); });
 }
 SLIPWAVE_INSTANTIATE_D(FUNCTION, lie_askew);
 
@@ -230,7 +230,7 @@ std::vector<std::string> leave_out_inert(Model<D>& model, double resolution) {
     const double vp = double(model.medium.vp[cell]), vs = double(model.medium.vs[cell]),
                  rho = double(model.medium.rho[cell]), mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
     const bool gone = std::all_of(set.systems.begin(), set.systems.end(), [&](const auto& system) {
-      return inert(system, !set.traces.empty(), lambda, mu);
+      return inert(system, !set.is_cluster(), lambda, mu);
     });
     (gone ? lost : left)[code - 1u] = 1;
     if (gone) code = 0;
@@ -337,7 +337,7 @@ void put_share(Model<D>& model, std::size_t cell, double share) {
 template <int D>
 void share_cell(Model<D>& model, std::size_t cell, std::uint8_t code, double share, FractureCount& count) {
   const std::size_t had = model.fracture[cell];
-  const bool of_cluster = had != 0 && model.fracture_sets[had - 1].traces.empty();
+  const bool of_cluster = had != 0 && model.fracture_sets[had - 1].is_cluster();
   const double before = of_cluster ? fracture_share_of(model, cell) : 0;
   if (had != 0 && share < 0.5 && (share < before || !of_cluster)) {
     if (of_cluster) put_share(model, cell, std::min(before + share, 1.));

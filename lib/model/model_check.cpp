@@ -192,9 +192,8 @@ void check_together(const FractureSet<D>& set, const std::string& name) {
 /// What single fractures cannot have.
 template <int D>
 void check_single(const FractureSet<D>& set, const std::string& name) {
-  if (set.on_faces && set.traces.empty())
-    throw Error(name + " lies on faces, expected single fractures there");
-  if (set.traces.empty()) return;
+  if (set.on_faces && set.is_cluster()) throw Error(name + " lies on faces, expected single fractures there");
+  if (set.is_cluster()) return;
   if (D == 3 && set.on_faces)
     throw Error(name + " lies on faces between cells, which fractures of models in 2-D do");
   const auto& system = set.systems.front();
@@ -243,7 +242,7 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
     check_constant("friction", system.friction);
     check_constant("viscosity", system.viscosity_s);
     check_constant("strength", system.strength_pa);
-    check_compliance(system, !set.traces.empty(), set.on_faces, name);
+    check_compliance(system, !set.is_cluster(), set.on_faces, name);
     if (system.law != FrictionLaw::slip_weakening) continue;
     check_constant("dynamic friction", system.dynamic_friction);
     if (system.dynamic_friction > system.friction)

@@ -115,7 +115,7 @@ Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
     of_set.count("cut by its edge", cells.cut);
     of_set.number("as whole cells", std::round(cells.shares * 10) / 10, "");
   }
-  if (!set.traces.empty()) {
+  if (!set.is_cluster()) {
     double size = 0;
     for (const auto& trace : set.traces) {
       if constexpr (D == 2)
@@ -134,7 +134,7 @@ Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
       normal += (normal.empty() ? "" : ",") + shown(std::round(part * 1e6) / 1e6 + 0.0);
     }
     systems.emplace_back();
-    if (set.traces.empty()) systems.back().text("normal", normal);
+    if (set.is_cluster()) systems.back().text("normal", normal);
     report_compliance(systems.back(), system.compliance);
     if (!system.slides()) continue;
     if (!system.compliance.gives() && system.compliance.spacing_m > 0)

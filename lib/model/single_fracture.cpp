@@ -88,7 +88,7 @@ FractureCount mark(Model<D>& model, std::size_t code) {
       continue;
     }
     if (of_cell > code) continue;
-    count.taken += of_cell != 0 && of_cell != code && model.fracture_sets[of_cell - 1U].traces.empty();
+    count.taken += of_cell != 0 && of_cell != code && model.fracture_sets[of_cell - 1U].is_cluster();
     of_cell = std::uint8_t(code);
     if (!model.fracture_share.empty()) model.fracture_share[crossed.cell] = 1;
     ++count.marked;
@@ -243,7 +243,7 @@ auto strain_of_fracture(const Point<D>& normal, const LinearCompliance& of, doub
 
 template <>
 std::vector<CrossedCell<2>> cells_crossed(const Grid<2>& grid, const FractureSet<2>& set) {
-  if (set.traces.empty()) return {};
+  if (set.is_cluster()) return {};
   std::map<std::size_t, CrossedCell<2>> cells;
   const auto& of = set.systems.at(0).compliance;
   const auto bounds = bounds_of(grid);
@@ -266,7 +266,7 @@ std::vector<CrossedCell<2>> cells_crossed(const Grid<2>& grid, const FractureSet
 
 template <>
 std::vector<CrossedCell<3>> cells_crossed(const Grid<3>& grid, const FractureSet<3>& set) {
-  if (set.traces.empty()) return {};
+  if (set.is_cluster()) return {};
   std::map<std::size_t, CrossedCell<3>> cells;
   const auto& of = set.systems.at(0).compliance;
   for (const auto& polygon : set.traces) {
@@ -285,11 +285,11 @@ std::vector<CrossedCell<3>> cells_crossed(const Grid<3>& grid, const FractureSet
 template <int D>
 void place_single_fractures(Model<D>& model) {
   const auto& sets = model.fracture_sets;
-  if (std::all_of(sets.begin(), sets.end(), [](const auto& set) { return set.traces.empty(); })) return;
+  if (std::all_of(sets.begin(), sets.end(), [](const auto& set) { return set.is_cluster(); })) return;
   for (auto& code : model.fracture)
-    if (code > 0 && !sets[code - 1U].traces.empty()) code = 0;
+    if (code > 0 && !sets[code - 1U].is_cluster()) code = 0;
   for (std::size_t code = 1; code <= sets.size(); ++code)
-    if (!sets[code - 1].traces.empty() && !sets[code - 1].on_faces) mark(model, code);
+    if (!sets[code - 1].is_cluster() && !sets[code - 1].on_faces) mark(model, code);
 }
 SLIPWAVE_INSTANTIATE_D(FUNCTION, place_single_fractures);
 

@@ -410,7 +410,7 @@ const FractureSet<D>* fracture_at(const Model<D>& model, const Point<D>& source_
     const auto code = model.fracture[std::size_t(grid.flat(cell_of(grid, at)))];
     if (code == 0) continue;
     const auto& set = model.fracture_sets[code - 1U];
-    if (!set.traces.empty() && !set.on_faces && gives(set)) return &set;
+    if (!set.is_cluster() && !set.on_faces && gives(set)) return &set;
   }
   return nullptr;
 }

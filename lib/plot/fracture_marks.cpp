@@ -57,7 +57,7 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
   }
   std::vector<std::vector<Hatch>> hatches(section.sets.size() + 1);
   for (std::size_t set = 0; hatched && set < section.sets.size(); ++set) {
-    if (!section.sets[set].traces.empty()) continue;
+    if (!section.sets[set].is_cluster()) continue;
     for (const auto& system : section.sets[set].systems) hatches[set + 1].push_back(hatch_of(system, panel));
   }
   const double scale = canvas.page().scale();
@@ -66,7 +66,7 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
   for (int row = 0; row < codes.height; ++row) {
     for (int column = 0; column < codes.width; ++column) {
       const int code = code_at(column, row);
-      if (code == 0 || !section.sets[std::size_t(code) - 1].traces.empty()) continue;
+      if (code == 0 || !section.sets[std::size_t(code) - 1].is_cluster()) continue;
       bool on = false;
       for (const auto& hatch : hatches[std::size_t(code)]) on = on || hatch.on(column, row, scale);
       for (const int off : {-thick, thick})

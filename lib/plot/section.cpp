@@ -106,7 +106,7 @@ std::vector<FractureSet<2>> seen_in_section(const std::vector<FractureSet<3>>& s
       for (auto& line : met_by_plane(polygon, plane.axis, plane.at_m, spacing_m / 2))
         traces.push_back(std::move(line));
     // Cells beside single fractures are not those of a cluster, though the section meets none.
-    if (!set.traces.empty() && traces.empty()) traces.emplace_back();
+    if (!set.is_cluster() && traces.empty()) traces.emplace_back();
   }
   return seen;
 }
