@@ -424,8 +424,9 @@ std::optional<std::string> source_in_a_fracture(const Scene<D>& scene) {
       const auto* set = point_injection(*source) ? fracture_at(scene.model, source->position_m) : nullptr;
       if (!set) continue;
       return "the source of shot " + std::to_string(shot) + " lies in cells of the fracture '" + set->name +
-             "': what it answers may be half of what it should be. Move the source away by a cell, or use "
-             "smaller cells";
+             "': what it answers may be half of what it should be. Split faces if the fracture is level or "
+             "upright "
+             "(sw-fracture --faces), move the source away by some cells, or use smaller cells";
     }
   return std::nullopt;
 }

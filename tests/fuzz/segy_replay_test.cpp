@@ -39,7 +39,7 @@ TEST(Seeds, OfAreasHaveInlineAndCrosslineNumbersOfBothSigns) {
   for (const Seed& seed : seeds(5)) {
     if (!seed.name.starts_with("area-")) continue;
     ++areas;
-    const Scratch scratch;
+    const slipwave::Scratch scratch;
     put_bytes(scratch.file(seed.name), seed.bytes);
     Reader reader(scratch.file(seed.name));
     std::set<std::int64_t> inlines, crosslines;

@@ -10,6 +10,7 @@
 
 #include "io/netcdf_file.hpp"
 #include "model_cases.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::accuracy_table_test {
 namespace {
@@ -72,14 +73,7 @@ void expect_same(const AccuracyTable& found, const AccuracyTable& exact) {
 
 class AccuracyTables : public testing::Test {
  protected:
-  AccuracyTables() {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("accuracy_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-               std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  ~AccuracyTables() override { std::filesystem::remove_all(folder_); }
-  std::string path() { return (folder_ / "t.nc").string(); }
+  std::string path() { return scratch_.file("t.nc"); }
   void write(const AccuracyTable& table) {
     OutputFile out(path(), OutputFile::Content::binary);
     write_accuracy_table(out, table, "slipwave test");
@@ -89,7 +83,7 @@ class AccuracyTables : public testing::Test {
   void write_damaged(const Changed& changed) {
     write(some_table());
     const auto good = NetcdfFile::open(path());
-    auto file = NetcdfFile::create((folder_ / "bad.nc").string(), path());
+    auto file = NetcdfFile::create(scratch_.file("bad.nc"), path());
     file.define_dimension("setting", 3);
     for (const auto& variable : good.variables()) {
       if (changed(file, variable.name)) continue;
@@ -99,12 +93,12 @@ class AccuracyTables : public testing::Test {
     file.close();
   }
   std::string sentence_of_damaged() {
-    const auto bad = (folder_ / "bad.nc").string();
+    const auto bad = scratch_.file("bad.nc");
     const auto sentence = sentence_of([&] { read_accuracy_table(bad); });
     return sentence.rfind(bad + ": ", 0) == 0 ? sentence.substr(bad.size() + 2) : sentence;
   }
 
-  std::filesystem::path folder_;
+  Scratch scratch_;
 };
 
 }  // namespace
@@ -198,7 +192,7 @@ TEST_F(AccuracyTables, WithAChoiceThatIsNoRowAreRefused) {
 }
 
 TEST_F(AccuracyTables, OfOtherKindsOfFilesAreRefused) {
-  auto file = NetcdfFile::create((folder_ / "bad.nc").string(), "bad.nc");
+  auto file = NetcdfFile::create(scratch_.file("bad.nc"), "bad.nc");
   file.define_dimension("x", 3);
   file.close();
   EXPECT_EQ(sentence_of_damaged(), "found no dimension setting, expected a table of sw-accuracy");
@@ -207,7 +201,7 @@ TEST_F(AccuracyTables, OfOtherKindsOfFilesAreRefused) {
 
 TEST_F(AccuracyTables, ThatClaimMoreRowsThanTheFileHoldsAreRefused) {
   // Before so much memory is asked for.
-  auto file = NetcdfFile::create((folder_ / "bad.nc").string(), "bad.nc");
+  auto file = NetcdfFile::create(scratch_.file("bad.nc"), "bad.nc");
   file.define_dimension("setting", std::size_t(1) << 40);
   file.define_variable("order", NetcdfFile::Type::i32, {"setting"}, {true, {1024}});
   file.put("order", {0}, {2}, std::vector<int>{5, 7}.data());

@@ -10,22 +10,15 @@
 
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::acquisition_wavelet_file_test {
 namespace {
 
 class WaveletFile : public testing::Test {
  protected:
-  WaveletFile() {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("wavelet_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-               std::to_string(testing::UnitTest::GetInstance()->random_seed()) + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  ~WaveletFile() override { std::filesystem::remove_all(folder_); }
-
   std::string with(const std::string& content) {
-    const auto path = (folder_ / "w.txt").string();
+    const auto path = scratch_.file("w.txt");
     std::ofstream(path, std::ios::binary) << content;
     return path;
   }
@@ -41,7 +34,7 @@ class WaveletFile : public testing::Test {
     return "no error";
   }
 
-  std::filesystem::path folder_;
+  Scratch scratch_;
 };
 
 std::string sampled(const Wavelet& w, double dt, double shift, bool one_column) {
@@ -163,7 +156,7 @@ TEST_F(WaveletFile, RefusesAFileWithoutAWavelet) {
   EXPECT_NE(refusal("0 1\n").find("found 1 sample,"), std::string::npos);
   EXPECT_NE(refusal("0 0\n1 0\n").find("only zeros"), std::string::npos);
   try {
-    parse_wavelet("file:" + (folder_ / "missing.txt").string());
+    parse_wavelet("file:" + scratch_.file("missing.txt"));
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("missing.txt"), std::string::npos);

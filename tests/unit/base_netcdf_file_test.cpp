@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "io/netcdf_container.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::base_netcdf_file_test {
 namespace {
@@ -19,13 +20,7 @@ namespace fs = std::filesystem;
 
 class NetcdfFileTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path().string() + "/slipwave-unit-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string path(const std::string& name) const { return scratch_.file(name); }
   std::vector<char> bytes(const std::string& name) const {
     std::ifstream file(path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -59,7 +54,7 @@ class NetcdfFileTest : public ::testing::Test {
     return "no error";
   }
 
-  fs::path directory_;
+  Scratch scratch_;
 };
 
 void expect_sample(const NetcdfFile& file) {

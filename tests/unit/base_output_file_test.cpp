@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::base_output_file_test {
 namespace {
@@ -22,20 +23,14 @@ namespace fs = std::filesystem;
 
 class OutputFileTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path().string() + "/slipwave-unit-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+  std::string path(const std::string& name) const { return scratch_.file(name); }
   std::string content(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(path(name)).rdbuf();
     return text.str();
   }
   std::size_t entries() const {
-    return std::size_t(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
+    return std::size_t(std::distance(fs::directory_iterator(scratch_.path()), fs::directory_iterator()));
   }
 
   /// A process writes something and is killed before it is whole.
@@ -49,7 +44,7 @@ class OutputFileTest : public ::testing::Test {
     ASSERT_EQ(waitpid(child, nullptr, 0), child);
   }
 
-  fs::path directory_;
+  Scratch scratch_;
 };
 
 }  // namespace
@@ -89,7 +84,7 @@ TEST_F(OutputFileTest, TakesMoreThanItsBuffer) {
 
 TEST_F(OutputFileTest, HandsItsTemporaryToLibraries) {
   OutputFile out(path("a"), OutputFile::Content::binary);
-  EXPECT_EQ(fs::path(out.path_for_libraries()).parent_path(), directory_);
+  EXPECT_EQ(fs::path(out.path_for_libraries()).parent_path(), scratch_.path());
   std::ofstream(out.path_for_libraries()) << "by name";
   out.commit();
   EXPECT_EQ(content("a"), "by name");
@@ -238,7 +233,8 @@ TEST_F(OutputFileTest, NamesTheFileWhenItCannotBeWritten) {
     return "no error";
   };
   EXPECT_EQ(sentence_of(path("no/a")), path("no/a") + ": No such file or directory");
-  EXPECT_EQ(sentence_of(directory_.string()), directory_.string() + ": is a directory, expected a file");
+  EXPECT_EQ(sentence_of(scratch_.path().string()),
+            scratch_.path().string() + ": is a directory, expected a file");
   EXPECT_EQ(sentence_of("/dev/full"), "/dev/full: No space left on device");
 }
 

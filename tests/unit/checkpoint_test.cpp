@@ -10,6 +10,7 @@
 
 #include "checkpoint/run_state.hpp"
 #include "refusal.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::checkpoint_test {
 namespace {
@@ -18,12 +19,7 @@ namespace fs = std::filesystem;
 
 class CheckpointFile : public ::testing::Test {
  protected:
-  CheckpointFile() {
-    std::string name = fs::temp_directory_path().string() + "/slipwave-unit-XXXXXX";
-    if (mkdtemp(name.data())) directory_ = name;
-  }
-  ~CheckpointFile() override { fs::remove_all(directory_); }
-  std::string path(const std::string& name = "c") const { return directory_ + '/' + name; }
+  std::string path(const std::string& name = "c") const { return scratch_.file(name); }
   static std::string content(const std::string& path) {
     std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
@@ -34,7 +30,7 @@ class CheckpointFile : public ::testing::Test {
   }
   std::vector<std::string> names() const {
     std::vector<std::string> all;
-    for (const auto& entry : fs::directory_iterator(directory_))
+    for (const auto& entry : fs::directory_iterator(scratch_.path()))
       all.push_back(entry.path().filename().string());
     std::sort(all.begin(), all.end());
     return all;
@@ -48,7 +44,7 @@ class CheckpointFile : public ::testing::Test {
   mutable std::string said;
 
  private:
-  std::string directory_;
+  Scratch scratch_;
 };
 
 Gather gather_of(std::size_t shot) {

@@ -102,7 +102,7 @@ TEST(Spectrum, RefusesWhatHasNoSpectrum) {
 }
 
 TEST(SpectrumText, HoldsAColumnAComponentWithItsUnit) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   OutputFile out(scratch.file("s.txt"), OutputFile::Content::text);
   const auto file = spectrum_text(out, {{0, 10}, false, "how", "sw-x", {}});
   std::map<Component, SpectrumMean> means;
@@ -118,7 +118,7 @@ TEST(SpectrumText, HoldsAColumnAComponentWithItsUnit) {
 
 TEST(SpectrumNetcdf, HoldsEveryTraceInOrder) {
   // more traces than go into one piece of the file
-  const segy::Scratch scratch;
+  const Scratch scratch;
   OutputFile out(scratch.file("s.nc"), OutputFile::Content::binary);
   const std::size_t bins = 1000;
   std::vector<double> frequencies(bins);

@@ -9,6 +9,7 @@
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "model_cases.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::model_file_test {
 namespace {
@@ -17,16 +18,8 @@ namespace fs = std::filesystem;
 
 class ModelFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path().string() + "/slipwave-unit-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
-    path_ = (directory_ / "m.nc").string();
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  fs::path directory_;
-  std::string path_;
+  Scratch scratch_;
+  std::string path_ = scratch_.file("m.nc");
 };
 
 template <int D>
@@ -160,7 +153,7 @@ TEST_F(ModelFile, SaysWhatAFileLacks) {
   write_model(water_over_rock(grid_of(3, 2, 5), 1), path_);
   EXPECT_EQ(sentence_of([&] { read_model<3>(path_); }),
             path_ + ": vp: found dimensions (z, x), expected (z, y, x)");
-  const auto other = (directory_ / "other.nc").string();
+  const auto other = scratch_.file("other.nc");
   {
     auto file = NetcdfFile::create(other, other);
     define_grid(file, grid_of(3, 2, 5));

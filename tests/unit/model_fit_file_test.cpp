@@ -13,6 +13,7 @@
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "model_cases.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::model_fit_file_test {
 namespace {
@@ -31,13 +32,6 @@ Model<D> fitted_model(const Grid<D>& grid, const std::vector<Layer>& pile = laye
 
 class FittedModelFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path().string() + "/slipwave-unit-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
-    path_ = (directory_ / "m.nc").string();
-  }
-  void TearDown() override { fs::remove_all(directory_); }
   std::string bytes() const {
     std::ifstream file(path_, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -56,8 +50,8 @@ class FittedModelFile : public ::testing::Test {
     return sentence.starts_with(path_ + ": ") ? sentence.substr(path_.size() + 2) : sentence;
   }
 
-  fs::path directory_;
-  std::string path_;
+  Scratch scratch_;
+  std::string path_ = scratch_.file("m.nc");
 };
 
 }  // namespace

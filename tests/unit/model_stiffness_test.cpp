@@ -9,6 +9,7 @@
 #include "refusal.hpp"
 #include "rock/anisotropy.hpp"
 #include "rock/stiffness_input.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::model_stiffness_test {
 namespace {
@@ -273,7 +274,8 @@ TEST(ElasticConstants, AreLinearBetweenCellsAndSurviveAFile) {
   EXPECT_NEAR(mean(5, 5) / determinant,
               (1 / one(3, 3) + other(5, 5) / (other(3, 3) * other(5, 5) - other(3, 5) * other(3, 5))) / 2,
               1e-6 / mean(3, 3));
-  const auto path = testing::TempDir() + "constants.nc";
+  const Scratch scratch;
+  const auto path = scratch.file("constants.nc");
   write_model(model, path);
   const auto read = read_model<2>(path);
   for (const auto property : model.medium.properties())

@@ -14,20 +14,14 @@
 #include "grid/slice.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "output/snapshot_reader.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::output_snapshot_test {
 namespace {
 
 class Snapshots : public testing::Test {
  protected:
-  Snapshots() {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("snapshots_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-               std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  ~Snapshots() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) { return (folder_ / name).string(); }
+  std::string path(const std::string& name) { return scratch_.file(name); }
 
   static float value(std::size_t field, int time, std::size_t cell) {
     return float(field + 1) * 1e-3f * float(std::sin(0.1 * double(cell) + time));
@@ -48,7 +42,7 @@ class Snapshots : public testing::Test {
   }
 
   Grid<2> grid_{{7, 4}, 2.5, {100, 0}};
-  std::filesystem::path folder_;
+  Scratch scratch_;
 };
 
 TEST_F(Snapshots, OfRegularGridsHaveNoDepthsOfTheirOwn) {
@@ -144,7 +138,7 @@ TEST_F(Snapshots, LeaveNothingBehindUnlessCommitted) {
     SnapshotWriter<2> writer(path("s.nc"), grid_, {"p"}, {});
     writer.write(0, std::vector<Field<2>>{Field<2>(grid_)});
   }
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
+  EXPECT_TRUE(std::filesystem::is_empty(scratch_.path()));
 }
 
 TEST_F(Snapshots, OfThreeDimensionsHaveAllTheirAxes) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "base/history.hpp"
+#include "scratch.hpp"
 #include "segy/conversion.hpp"
 #include "segy/history.hpp"
 #include "segy_write_cases.hpp"
@@ -16,14 +15,14 @@ namespace {
 
 class HistoryInTraces : public ::testing::Test {
  protected:
-  ~HistoryInTraces() override { std::filesystem::remove(path_); }
   FileHeader written(const FileFormat& format, const std::string& history) const {
     OutputFile out(path_, OutputFile::Content::binary);
     write_gather(out, survey_gather(11, 2), format, {{"slipwave test"}, history});
     out.commit();
     return Reader(path_).header();
   }
-  std::string path_ = ::testing::TempDir() + "history.sgy";
+  Scratch scratch_;
+  std::string path_ = scratch_.file("history.sgy");
 };
 
 std::string long_command() {

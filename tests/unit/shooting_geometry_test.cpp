@@ -40,7 +40,7 @@ class GeometryOfTraces : public ::testing::Test {
     return sentence.empty() ? sentence : sentence.substr(scratch_.file("g").size() + 2);
   }
 
-  segy::Scratch scratch_;
+  Scratch scratch_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "scratch.hpp"
 #include "segy_write_cases.hpp"
 #include "shooting/trace_wavelet.hpp"
 
@@ -15,9 +16,8 @@ namespace {
 
 class TraceWavelet : public testing::Test {
  protected:
-  std::string path_ = testing::TempDir() + "trace_wavelet_" +
-                      testing::UnitTest::GetInstance()->current_test_info()->name() + ".sgy";
-  void TearDown() override { std::remove(path_.c_str()); }
+  Scratch scratch_;
+  std::string path_ = scratch_.file("wavelet.sgy");
 
   /// Traces that begin and end with zero, at 10 ms from 0.02 s on.
   Gather write(const segy::FileFormat& format) const {

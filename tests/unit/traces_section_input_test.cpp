@@ -62,7 +62,7 @@ class SectionInput : public ::testing::Test {
     for (std::size_t n = 0; n < expected.size(); ++n) ASSERT_EQ(found.values[n], expected[n]) << n;
   }
 
-  segy::Scratch scratch_;
+  Scratch scratch_;
 };
 
 void set_place(segy::TraceWords& words, std::int64_t x, std::int64_t y) {

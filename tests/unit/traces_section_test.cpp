@@ -30,7 +30,7 @@ void write(const std::string& path, const Field<2>& field, const segy::FileForma
 }  // namespace
 
 TEST(Section, IsAColumnATraceFromTheTopDown) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   for (const bool su : {false, true}) {
     segy::FileFormat format;
     format.su = su;
@@ -58,7 +58,7 @@ TEST(Section, IsAColumnATraceFromTheTopDown) {
 }
 
 TEST(Section, SaysInWordsWhatItsDepthIs) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   write(scratch.file("s"), slope(), {});
   const segy::Reader reader(scratch.file("s"));
   const std::string& text = reader.header().text;
@@ -68,7 +68,7 @@ TEST(Section, SaysInWordsWhatItsDepthIs) {
 }
 
 TEST(Section, RefusesStepsTheFormatCannotHold) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   EXPECT_THROW(write(scratch.file("s"), slope(100), {}), Error);
   EXPECT_FALSE(std::filesystem::exists(scratch.file("s")));
   segy::FileFormat wide;

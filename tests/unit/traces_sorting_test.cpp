@@ -60,7 +60,7 @@ std::vector<std::vector<std::uint8_t>> delivered(RecordSorter& sorter) {
 TEST(RecordSorter, KeepsTheOrderOfEqualOnesInMemoryAndThroughAFile) {
   const auto records = records_of(3000);
   const auto expected = sorted_by_hand(records);
-  const segy::Scratch scratch;
+  const Scratch scratch;
   for (const std::uint64_t memory : {std::uint64_t{1} << 30, std::uint64_t{5} << 20, std::uint64_t{1}}) {
     RecordSorter sorter(2, memory, scratch.file(""));
     for (const auto& record : records) sorter.add(record.keys, record.bytes);
@@ -106,7 +106,7 @@ TEST(RecordSorter, NamesTheDirectoryItCannotWriteTo) {
 }
 
 TEST(TraceSorter, SortsTracesByKeysUpAndDown) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   segy::write_file(scratch.file("a"), segy::survey_gather(), {});
   const auto sorted = [&](const std::string& keys, std::uint64_t memory) {
     segy::Reader reader(scratch.file("a"));
@@ -129,7 +129,7 @@ TEST(TraceSorter, SortsTracesByKeysUpAndDown) {
 }
 
 TEST(TraceSorter, CountsTheLargestEnsemble) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   Gather gather = segy::survey_gather();
   gather.traces.resize(30);  // 24 of shot 1, 6 of shot 2
   segy::write_file(scratch.file("a"), gather, {});

@@ -25,7 +25,7 @@ TEST(TimeWindow, HoldsItsEnds) {
 }
 
 TEST(TimeWindow, TakesSamplesAndSetsTheDelay) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   Gather gather = segy::survey_gather(51, 4, 0.002);
   gather.axis.start_s = -0.02;
   segy::write_file(scratch.file("a"), gather, {});
@@ -41,7 +41,7 @@ TEST(TimeWindow, TakesSamplesAndSetsTheDelay) {
 }
 
 TEST(TimeWindow, KeepsTheScalarOfTimes) {
-  const segy::Scratch scratch;
+  const Scratch scratch;
   segy::write_file(scratch.file("a"), segy::survey_gather(51, 4, 0.0005), {});
   segy::Reader reader(scratch.file("a"));
   segy::RawTrace trace;

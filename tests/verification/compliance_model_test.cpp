@@ -17,6 +17,7 @@
 #include "model/model_netcdf.hpp"
 #include "model/slip_regime.hpp"
 #include "planning/expected_slip.hpp"
+#include "scratch.hpp"
 
 namespace slipwave::compliance_model_test {
 namespace {
@@ -53,10 +54,10 @@ TEST(ComplianceModel, ComesBackFromAFile) {
   cracks.compliance.crack_density = 0.05, cracks.compliance.aspect = 1e-3, cracks.compliance.fill_pa = 2e9;
   auto model = model_with(springs());
   model.fracture_sets.push_back({"cracks", {cracks}});
-  const auto path = (std::filesystem::temp_directory_path() / "compliance_model_test.nc").string();
+  const Scratch scratch;
+  const auto path = scratch.file("m.nc");
   write_model(model, path);
   const auto found = read_model<2>(path);
-  std::filesystem::remove(path);
   for (const std::size_t k : {0, 1}) {
     const auto &is = found.fracture_sets[k].systems[0], &was = model.fracture_sets[k].systems[0];
     EXPECT_EQ(is.law, FrictionLaw::none);

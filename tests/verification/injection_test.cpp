@@ -11,6 +11,7 @@
 #include "acquisition/ground.hpp"
 #include "lab.hpp"
 #include "scene/scene.hpp"
+#include "scratch.hpp"
 #include "segy/writer.hpp"
 #include "shooting/scene_options.hpp"
 #include "solver/simulation.hpp"
@@ -99,7 +100,8 @@ class Injection : public testing::Test {
     return product(d, forward.traces[0].samples, false) / product(m, adjoint.traces[0].samples, true) - 1;
   }
 
-  std::string path_ = testing::TempDir() + "injected.sgy";
+  Scratch scratch_;
+  std::string path_ = scratch_.file("injected.sgy");
 };
 
 }  // namespace
