@@ -8,6 +8,7 @@
 
 #include "acquisition/fibre.hpp"
 #include "base/instantiate.hpp"
+#include "base/last_found.hpp"
 #include "grid/locate.hpp"
 #include "rock/anisotropy.hpp"
 #include "rock/coefficients.hpp"
@@ -53,9 +54,7 @@ class Arrivals {
     // The mean of its cells, over their width.
     heights_.assign(slowness_.size(), 0);
     std::vector<int> rows(slowness_.size(), 0);
-    // A search over all directions; most cells are like the one before them.
-    Material last;
-    double fastest_of_last = 0;
+    LastFound<Material, double> fastest;  // a search over all directions
     Index<D> zone{};
     for (std::size_t axis = 0; axis < D; ++axis)
       zone[axis] = std::llround((medium.grid().origin_m[axis] - grid.origin_m[axis]) / grid.spacing_m);
@@ -83,8 +82,8 @@ class Arrivals {
       } else {
         const auto material = material_of(medium, cell);
         const bool searched = (D == 3 && material.orthorhombic) || material.constants;
-        if (searched && !(material == last)) fastest_of_last = fastest_p_speed<D>(last = material);
-        slowest = std::min(slowest, 1 / (searched ? fastest_of_last : fastest_p_speed<2>(material)));
+        const double speed = searched ? fastest(material, fastest_p_speed<D>) : fastest_p_speed<2>(material);
+        slowest = std::min(slowest, 1 / speed);
       }
       heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
       ++rows[number];

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/instantiate.hpp"
+#include "base/last_found.hpp"
 #include "rock/bulk_part.hpp"
 #include "rock/tilted_mean.hpp"
 
@@ -271,6 +272,7 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
   for (const auto property : {Property::qp, Property::qs})
     if (!medium.has(property)) medium[property] = Field<D>(medium.grid(), float(infinite));
   complete_anisotropy(medium);
+  LastFound<double, double> factor_p, factor_s;  // by Q
   std::int64_t lowered = 0;
   std::string first;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
@@ -286,13 +288,14 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
               ", more than its qs of " + shown(given.s, 4) + " allows: " + shown(most, 4);
     medium[Property::qp][cell] = float(std::min(given.p, most));
     const auto factor = [&](double q) { return mechanisms.unrelaxed_speed(q, reference_hz); };
-    medium.vp[cell] = float(vp * factor(std::min(given.p, most)));
-    medium.vs[cell] = float(vs * factor(given.s));
+    const double faster_s = factor_s(given.s, factor);
+    medium.vp[cell] = float(vp * factor_p(std::min(given.p, most), factor));
+    medium.vs[cell] = float(vs * faster_s);
     if (!rock) continue;
     if constexpr (D == 3) {
       set_deltas(medium, cell, *rock);
     } else {
-      const double of_p = double(medium.vp[cell]), of_s = shear * std::pow(factor(given.s), 2);
+      const double of_p = double(medium.vp[cell]), of_s = shear * std::pow(faster_s, 2);
       set_delta(medium, cell, *rock, of_p * of_p - of_s, of_s);
     }
   }
@@ -311,14 +314,19 @@ StepwiseRelaxation<D>::StepwiseRelaxation(const Medium<D>& medium, const Mechani
     parts_[std::size_t(l)] = part_relaxed(mechanisms.rate(l) * interval_s / 2);
 }
 
+template <int D>
+auto StepwiseRelaxation<D>::key_of(std::size_t cell, bool isotropic) const -> Key {
+  const auto [qp, qs] = qualities(*medium_, cell);
+  return {qp, qs, medium_->vp[cell], medium_->vs[cell],
+          isotropic ? std::nullopt : rock_with_axis(*medium_, cell)};
+}
+
 /// Returns the shares of a medium that relaxes all the time.
 template <int D>
-CellShares StepwiseRelaxation<D>::continuous(std::size_t cell, bool isotropic) const {
-  const auto [qp, qs] = qualities(*medium_, cell);
-  CellShares shares{mechanisms_.shares(qp), mechanisms_.shares(qs)};
-  const double vp = medium_->vp[cell], vs = medium_->vs[cell], p = vp * vp,
-               s = shear_part<D>(vs, isotropic ? std::nullopt : rock_with_axis(*medium_, cell));
-  if (vs == 0) return shares;
+CellShares StepwiseRelaxation<D>::continuous(const Key& of) const {
+  CellShares shares{mechanisms_.shares(of.qp), mechanisms_.shares(of.qs)};
+  const double p = of.vp * of.vp, s = shear_part<D>(of.vs, of.rock);
+  if (of.vs == 0) return shares;
   // Least squares for two Q differ a little in shape: no mechanism may give energy.
   for (std::size_t l = 0; l < shares.bulk.size(); ++l)
     shares.bulk[l] = std::max(0., (p * shares.bulk[l] - s * shares.shear[l]) / (p - s));
@@ -335,7 +343,19 @@ double StepwiseRelaxation<D>::kept(const RelaxedShares& shares) const {
 
 template <int D>
 CellShares StepwiseRelaxation<D>::shares(std::size_t cell, bool isotropic) const {
-  auto shares = continuous(cell, isotropic);
+  return shares(key_of(cell, isotropic));
+}
+
+template <int D>
+std::function<CellShares(std::size_t, bool)> StepwiseRelaxation<D>::shares_in_turn() const {
+  return [this, last = LastFound<Key, CellShares>()](std::size_t cell, bool isotropic) mutable {
+    return last(key_of(cell, isotropic), [this](const Key& of) { return shares(of); });
+  };
+}
+
+template <int D>
+CellShares StepwiseRelaxation<D>::shares(const Key& of) const {
+  auto shares = continuous(of);
   for (auto* of : {&shares.bulk, &shares.shear}) {
     const double left = kept(*of);
     for (std::size_t l = 0; l < of->size(); ++l) (*of)[l] *= parts_[l] / left;
@@ -346,9 +366,10 @@ CellShares StepwiseRelaxation<D>::shares(std::size_t cell, bool isotropic) const
 template <int D>
 Medium<D> StepwiseRelaxation<D>::medium() const {
   auto medium = *medium_;
+  LastFound<Key, CellShares> last;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
     if (!attenuates(medium, cell)) continue;
-    const auto shares = continuous(cell);
+    const auto shares = last(key_of(cell, false), [this](const Key& of) { return continuous(of); });
     const double vp = medium.vp[cell], vs = medium.vs[cell];
     const auto rock = rock_with_axis(medium, cell);
     const double s = shear_part<D>(vs, rock);

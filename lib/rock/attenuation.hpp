@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -131,6 +133,8 @@ class StepwiseRelaxation {
   StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms, double interval_s);
   /// Its own shares; `isotropic`: of an interface's cell that the solver takes for its isotropic mean.
   CellShares shares(std::size_t cell, bool isotropic = false) const;
+  /// The same of cells one after the other, for one thread; it keeps a reference.
+  std::function<CellShares(std::size_t cell, bool isotropic)> shares_in_turn() const;
   /// The stiffness of plane waves at a frequency; in 3-D of those in the plane of the rock's axes 1 and 3.
   ComplexStiffness stiffness(std::size_t cell, double hz) const;
   /// The medium with its own speeds.
@@ -139,7 +143,15 @@ class StepwiseRelaxation {
   double decay(int l) const;
 
  private:
-  CellShares continuous(std::size_t cell, bool isotropic = false) const;
+  /// What the shares of a cell depend on; the rock if it is not isotropic.
+  struct Key {
+    double qp, qs, vp, vs;
+    std::optional<Material> rock;
+    bool operator==(const Key& other) const = default;
+  };
+  Key key_of(std::size_t cell, bool isotropic) const;
+  CellShares continuous(const Key& of) const;
+  CellShares shares(const Key& of) const;
   double kept(const RelaxedShares& shares) const;
 
   const Medium<D>* medium_;

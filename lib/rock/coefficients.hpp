@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/last_found.hpp"
 #include "rock/anisotropy.hpp"
 #include "rock/tilted_mean.hpp"
 
@@ -83,19 +85,15 @@ class FastestOfTilted {
   double operator()(const Medium<D>& medium, std::size_t cell, bool dips = false) {
     const auto material = material_of(medium, cell);
     if (D == 2 && !material.constants) return fastest_p_speed_at_most(material);
-    if (!(material == last_) || dips != dips_) {
-      last_ = material, dips_ = dips;
-      speed_ = D == 2 ? fastest_p_speed_at_most(material)
-               : dips ? fastest_in_3d(material)
-                      : fastest_along_grid(material);
-    }
-    return speed_;
+    return last_({material, dips}, [](const auto& of) {
+      return D == 2      ? fastest_p_speed_at_most(of.first)
+             : of.second ? fastest_in_3d(of.first)
+                         : fastest_along_grid(of.first);
+    });
   }
 
  private:
-  Material last_;
-  bool dips_ = false;
-  double speed_ = 0;
+  LastFound<std::pair<Material, bool>, double> last_;
 };
 
 /// The largest speed of all cells, axes and waves, m/s; 0 where all is void.

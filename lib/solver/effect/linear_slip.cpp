@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/instantiate.hpp"
+#include "base/last_found.hpp"
 #include "base/small_matrix.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/single_fracture.hpp"
@@ -190,17 +191,15 @@ template <int D>
 std::function<std::optional<Elasticity<D>>(const Index<D>&)> stiffness_among_planes(const Domain<D>& domain,
                                                                                     const Model<D>& model) {
   if (model.fracture.empty()) return {};
-  // Neighbours are asked for one after the other, and most of them are alike.
-  return [&, last = std::size_t(0), rock = Material{},
-          stiffness = Elasticity<D>{}](const Index<D>& at) mutable -> std::optional<Elasticity<D>> {
+  using Key = std::pair<std::size_t, Material>;  // the set's number and the rock
+  return [&, last = LastFound<Key, Elasticity<D>>()](
+             const Index<D>& at) mutable -> std::optional<Elasticity<D>> {
     const auto cell = std::size_t(model.grid().flat(domain.model_cell(at)));
     const std::size_t code = model.fracture[cell];
     if (code == 0 || !continues_outside(model, code - 1)) return {};
-    if (const auto here = material_of(model.medium, cell); code != last || here != rock) {
-      last = code, rock = here;
-      stiffness = stiffness_with_springs(model.fracture_sets[code - 1], model.medium, cell);
-    }
-    return stiffness;
+    return last({code, material_of(model.medium, cell)}, [&](const Key&) {
+      return stiffness_with_springs(model.fracture_sets[code - 1], model.medium, cell);
+    });
   };
 }
 
