@@ -133,7 +133,7 @@ class StepwiseRelaxation {
   StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms, double interval_s);
   /// Its own shares; `isotropic`: of an interface's cell that the solver takes for its isotropic mean.
   CellShares shares(std::size_t cell, bool isotropic = false) const;
-  /// The same of cells one after the other, for one thread; it keeps a reference.
+  /// Returns what gives the same of cells one after the other, to one thread; it keeps a reference.
   std::function<CellShares(std::size_t cell, bool isotropic)> shares_in_turn() const;
   /// The stiffness of plane waves at a frequency; in 3-D of those in the plane of the rock's axes 1 and 3.
   ComplexStiffness stiffness(std::size_t cell, double hz) const;

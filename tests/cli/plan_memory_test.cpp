@@ -24,7 +24,7 @@ class PlannedMemory : public Shell {
 };
 
 /// Waves come to nearly all cells, and back: before, memory of cells that they have not reached is not taken.
-const std::string shot = " --wavelet ricker:10 -q --threads 1 --receivers 500,100 --record p --time 1.5 ";
+const std::string shot = " --wavelet ricker:10 -q --threads 1 --receivers 500,100 --record p --time 2 ";
 
 }  // namespace
 

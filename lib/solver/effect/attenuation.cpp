@@ -22,11 +22,6 @@ Relaxing what_relaxes(const Domain<D>& domain) {
                                                                                  : Relaxing::all;
 }
 
-template <class Real>
-void clear(Buffer<Real>& buffer) {
-  std::fill(buffer.data(), buffer.data() + buffer.size(), Real(0));
-}
-
 }  // namespace
 
 template <int D, class Real>
@@ -112,14 +107,15 @@ void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const Medium<
   for (int l = 0; l < mechanisms_; ++l) rows_.decays[l] = Real(relaxation.decay(l));
   memory_ = Buffer<Real>(stored_ * mechanisms_ * parts_);
   shares_ = Buffer<Real>(stored_ * mechanisms_ * moduli_);
-  clear(memory_);
-  clear(shares_);
+  clear_untouched(memory_);
+  clear_untouched(shares_);
   parallel_for(layout_.lines(), 16, [&](std::int64_t begin, std::int64_t end, int) {
+    const auto shares_of = relaxation.shares_in_turn();
     for (auto line = begin; line < end; ++line)
       for (const auto& segment : segments(line)) {
         for (auto x = segment.first; x < std::min(segment.last, layout_.shape()[0]); ++x) {
           const auto of =
-              relaxation.shares(model_cell(domain, line, x), is_taken_for_isotropic(domain, medium, line, x));
+              shares_of(model_cell(domain, line, x), is_taken_for_isotropic(domain, medium, line, x));
           for (int l = 0; l < mechanisms_; ++l) {
             const double decay = relaxation.decay(l);
             const auto place = segment.place + (x - segment.first), lane = place % relaxation_block;

@@ -3,12 +3,10 @@
 
 #include <sys/mman.h>
 
-#include <cstring>
 #include <span>
 
 #include "base/instantiate.hpp"
 #include "base/memory.hpp"
-#include "parallel/threads.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -56,15 +54,6 @@ Index<D> Layout<D>::line_index(std::int64_t n) const {
 }
 
 template <class Real>
-void clear(Buffer<Real>& buffer, std::int64_t piece) {
-  const std::int64_t pieces = buffer.size() / piece;
-  parallel_for(pieces, 16, [&](std::int64_t begin, std::int64_t end, int) {
-    std::memset(buffer.data() + begin * piece, 0, std::size_t((end - begin) * piece) * sizeof(Real));
-  });
-}
-
-/// Zeros that take memory where waves come to: what threads write first lies near them.
-template <class Real>
 void clear_untouched(Buffer<Real>& buffer) {
   clear_and_release(std::as_writable_bytes(std::span(buffer.data(), std::size_t(buffer.size()))));
 }
@@ -80,12 +69,13 @@ State<D, Real> make_state(const Index<D>& shape, MaterialKind material) {
   state.fields = Buffer<Real>(state.layout.total());
   state.material = Buffer<Real>(state.material_layout.total());
   clear_untouched(state.fields);
-  clear(state.material, state.material_layout.stride(1));
+  clear_untouched(state.material);
   state.first_uniform_run.assign(std::size_t(state.layout.lines()) + 1, 0);
   return state;
 }
 
 SLIPWAVE_INSTANTIATE_D(TYPE, class Layout);
 SLIPWAVE_INSTANTIATE_D_REAL(FUNCTION, make_state);
+SLIPWAVE_INSTANTIATE_REAL(FUNCTION, clear_untouched);
 
 }  // namespace slipwave::solver

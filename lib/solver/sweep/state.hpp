@@ -19,7 +19,7 @@ namespace slipwave::solver {
 /// along z reads from as many pages as planes).
 void prefer_large_pages(void* first, std::size_t bytes);
 
-/// Memory aligned for the widest vectors, zeroed by the threads that will use it.
+/// Memory aligned for the widest vectors.
 template <class Real>
 class Buffer {
  public:
@@ -44,6 +44,11 @@ class Buffer {
   std::unique_ptr<Real[], Free> values_;
   std::int64_t count_ = 0;
 };
+
+/// Makes memory that has not been written zero: it is taken where it is written first, near the thread that
+/// does.
+template <class Real>
+void clear_untouched(Buffer<Real>& buffer);
 
 /// A layout says where values are stored: lines along x, each holding one row of every field,
 /// [line][field][x]. Rows are padded to whole vectors; `max_reach` ghost lines stand round the grid on the
