@@ -128,8 +128,8 @@ class SideRowsFinder {
   std::int64_t zone(int axis, int side) const {
     return (side ? domain_.high_zone : domain_.low_zone)[std::size_t(axis)];
   }
-  /// Whether rows leave the model level along an axis at a cell, of which only the others count: beyond they
-  /// stay as they are.
+  /// Whether rows are level along an axis where they leave the model on a side, at a cell whose place along
+  /// that axis does not count: beyond the side they stay as they are.
   bool is_level(Index<D> at, int axis, int side) const {
     const auto& rows = *domain_.model_grid.rows;
     for (int other = 0; other < D; ++other) at[std::size_t(other)] -= domain_.low_zone[other];
