@@ -103,8 +103,9 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
                             {side_of(state, domain, at, 0), side_of(state, domain, at, 1)}});
   }
   slots_.end_lines_before(layout_.lines());
-  for (auto* lists : {&velocities_, &tractions_})
+  for (auto* lists : {&velocities_, &tractions_, &bends_})
     for (auto& list : *lists) list.assign(slots_.cells.size(), 0);
+  for (auto& list : returned_) list.assign(slots_.cells.size(), 0);
 }
 
 /// Notes the faces that differences along these read.
@@ -125,7 +126,7 @@ void InterfaceCorrections<D, Real>::hold(const Domain<D>& domain, const std::vec
     held_.cells.push_back({behind[0], layout_.cell(behind)});
   }
   held_.end_lines_before(layout_.lines());
-  retained_.assign(held_.cells.size() * 2 * D, 0);
+  retained_.assign(held_.cells.size() * 2 * FieldRows<D>::count, 0);
 }
 
 template <int D, class Real>
@@ -138,7 +139,8 @@ auto InterfaceCorrections<D, Real>::side_of(const State<D, Real>& state, const D
       Index<D> beside = behind;
       if (!thin(domain, axis)) beside[std::size_t(axis)] += offsets_along[k];
       if (copies()) {
-        found.cells[number] = (held_.from(layout_.line_number(beside), beside[0]) * 2 + side) * D;
+        found.cells[number] =
+            (held_.from(layout_.line_number(beside), beside[0]) * 2 + side) * FieldRows<D>::count;
       } else {
         beside[std::size_t(axis_)] += side - 1;
         found.cells[number] = layout_.cell(beside);
@@ -179,6 +181,8 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
   const double square = dot_product(n, n);
   Square sum{};
   std::array<std::array<Square, axes>, 2> load{}, bend{};
+  std::array<Square, 2> impedances{};
+  int solid = 0;
   bool beside_void = false;
   Matrices found{};
   for (const std::size_t side : {0, 1}) {
@@ -188,7 +192,7 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
       continue;
     }
     const auto c = elasticity_at(domain, cell);
-    const auto impedance = impedance_across<D>(c, in_grid, axis_);
+    const auto impedance = impedances[side] = impedance_across<D>(c, in_grid, axis_);
     sum = sum_of(sum, impedance, 1.);
     double trace = 0;
     for (std::size_t i = 0; i < D; ++i) trace += impedance[i][i];
@@ -196,7 +200,9 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
     Square of_fluid{};
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) of_fluid[i][k] = n[i] * n[k] / (trace * square);
-    const auto over = domain.impedance(wave_s)(cell) > 0 ? inverse_of(impedance) : of_fluid;
+    const bool is_solid = domain.impedance(wave_s)(cell) > 0;
+    if (is_solid) solid = int(side);
+    const auto over = is_solid ? inverse_of(impedance) : of_fluid;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       const int along = axis_of_pair<D>(axis_, int(axis) + 1);
       const double wide = along == z ? domain.height(behind[z]) : 1;
@@ -216,12 +222,47 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
       for (std::size_t i = 0; i < D; ++i)
         for (std::size_t k = 0; k < D; ++k) {
           const auto place = axis * D + k;
-          found[side].velocity[i][place] = Real(-sign * j * velocity[i][k]);
-          found[side].traction[i][place] = Real(-sign / 2 * part * load[side][axis][i][k]);
+          found.sides[side].velocity[i][place] = Real(-sign * j * velocity[i][k]);
+          found.sides[side].traction[i][place] = Real(-sign / 2 * part * load[side][axis][i][k]);
         }
     }
   }
+  if (!beside_void) found.bend = bend_of(domain, metric, behind, solid, impedances);
   return found;
+}
+
+/// Half a sweep along the interface leaves a slope of the velocity across it in the solid, since the traction
+/// along the interface grows from it on; the sweep across takes the slope back.
+template <int D, class Real>
+auto InterfaceCorrections<D, Real>::bend_of(
+    const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind, int solid,
+    const std::array<SmallMatrix<std::size_t(D)>, 2>& impedances) const -> Bend {
+  Bend bend;
+  bend.solid = solid;
+  const auto in_grid = normal_before(metric, behind);
+  const auto normal = in_pairs<D>(in_grid, axis_);
+  const double square = dot_product(normal, normal);
+  const auto& z = impedances[std::size_t(solid)];
+  const auto share = product_of(inverse_of(sum_of(impedances[0], impedances[1], 1.)), z);
+  const auto modulus = product_of(z, z);  // times the density
+  const auto cell = solid ? behind : before<D>(behind, axis_);
+  const double j = axis_ == D - 1 ? double(metric.volume(cell)) : 1;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) {
+      bend.velocity[i] -= Real(share[i][k] * normal[k] / square);
+      bend.returned[i] += Real(modulus[i][k] * normal[k] / (6 * j * square));
+    }
+  std::size_t number = 0;
+  for (int along = 0; along < D; ++along)
+    for (std::size_t k = 0; along != axis_ && k < offsets_along.size(); ++k, ++number) {
+      if (thin(domain, along)) continue;
+      Index<D> at = behind;
+      at[std::size_t(along)] += offsets_along[k];
+      const auto of = normal_before(metric, at);
+      const double wide = along == D - 1 ? domain.height(behind[D - 1]) : 1;
+      for (std::size_t i = 0; i < D; ++i) bend.stresses[number][i] = Real(weights_along[k] * of[i] / wide);
+    }
+  return bend;
 }
 
 template <int D, class Real>
@@ -231,8 +272,8 @@ void InterfaceCorrections<D, Real>::retain(const State<D, Real>& state, std::int
   const auto [first, last] = held_.in(line, columns);
   for (auto n = first; n < last; ++n)
     for (const int side : {0, 1})
-      for (int row = 0; row < D; ++row)
-        retained_[std::size_t((n * 2 + side) * D + row)] =
+      for (int row = 0; row < FieldRows<D>::count; ++row)
+        retained_[std::size_t((n * 2 + side) * FieldRows<D>::count + row)] =
             state.fields
                 .data()[held_[n].cell + (side - 1) * layout_.stride(axis_) + row * layout_.row_pitch()];
 }
@@ -246,7 +287,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   std::array<Real, std::size_t(D)> velocity{}, traction{};
   for (const std::size_t which : {0, 1}) {
     const Side& side = slot.sides[which];
-    const auto& of = matrices_[std::size_t(slot.matrices)][which];
+    const auto& of = matrices_[std::size_t(slot.matrices)].sides[which];
     const Real b = state.material.data()[side.b];
     std::array<Real, differences> along{};
     for (std::size_t place = 0; place < differences; ++place)
@@ -262,6 +303,30 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   }
   for (std::size_t i = 0; i < D; ++i)
     velocities_[i][std::size_t(n)] = velocity[i], tractions_[i][std::size_t(n)] = traction[i];
+  update_bend(fields, pitch, state.material.data(), n);
+}
+
+template <int D, class Real>
+void InterfaceCorrections<D, Real>::update_bend(const Real* fields, std::int64_t pitch, const Real* material,
+                                                std::int64_t n) {
+  const Slot& slot = slots_[n];
+  const Bend& bend = matrices_[std::size_t(slot.matrices)].bend;
+  const auto& solid = slot.sides[std::size_t(bend.solid)];
+  const auto& fluid = slot.sides[std::size_t(1 - bend.solid)];
+  Real difference = 0;
+  std::size_t number = 0;
+  for (int along = 0; along < D; ++along)
+    for (std::size_t k = 0; along != axis_ && k < offsets_along.size(); ++k, ++number)
+      for (int axis = 0; axis < D; ++axis) {
+        const auto row = FieldRows<D>::stress(axis, along) * pitch;
+        difference += bend.stresses[number][std::size_t(axis)] *
+                      (fields[solid.cells[number] + row] - fields[fluid.cells[number] + row]);
+      }
+  const Real b = material[solid.b];
+  for (std::size_t i = 0; i < D; ++i) {
+    bends_[i][std::size_t(n)] = bend.velocity[i] * b * difference;
+    returned_[2 * i + std::size_t(bend.solid)][std::size_t(n)] = bend.returned[i] * b * b * difference;
+  }
 }
 
 template <int D, class Real>

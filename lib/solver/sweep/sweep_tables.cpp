@@ -247,8 +247,11 @@ bool SweepTables<D, Real>::any_stencils(int axis, std::int64_t line, const Index
 template <int D, class Real>
 PairCorrections<Real> SweepTables<D, Real>::corrections_of(int axis, int pair, bool whole) const {
   const auto& interfaces = corrections[axis];
-  PairCorrections<Real> of{
-      interfaces.velocity(pair), interfaces.traction(pair), split ? split->images(pair) : nullptr, {}};
+  PairCorrections<Real> of{interfaces.velocity(pair), interfaces.traction(pair),
+                           split ? split->images(pair) : nullptr};
+  if (whole && !interfaces.empty())
+    of.bend = interfaces.bend(pair),
+    of.returned = {interfaces.returned(pair, 0), interfaces.returned(pair, 1)};
   for (const std::size_t side : {0, 1}) {
     const auto& surface = beside_void(axis, int(side));
     const auto& tractions = surface.tractions();
