@@ -58,7 +58,7 @@ class InterfaceCorrections {
   /// too much (theory.md (E11d)).
   const Real* bend(int component) const { return bends_[std::size_t(component)].data(); }
   const Real* returned(int component, int side) const {
-    return returned_[std::size_t(2 * component + side)].data();
+    return returned_[2 * std::size_t(component) + std::size_t(side)].data();
   }
 
  private:
