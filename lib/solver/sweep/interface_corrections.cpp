@@ -205,7 +205,7 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
     const auto over = is_solid ? inverse_of(impedance) : of_fluid;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       const int along = axis_of_pair<D>(axis_, int(axis) + 1);
-      const double wide = along == z ? domain.height(behind[z]) : 1;
+      const double wide = cell_along(domain, behind, along);
       auto slope = unit_vector<std::size_t(D)>(std::size_t(along));
       slope[std::size_t(along)] /= wide;
       load[side][axis] = in_pairs<D>(tractions<D>(c, in_grid, slope), axis_);
@@ -259,7 +259,7 @@ auto InterfaceCorrections<D, Real>::bend_of(
       Index<D> at = behind;
       at[std::size_t(along)] += offsets_along[k];
       const auto of = normal_before(metric, at);
-      const double wide = along == D - 1 ? domain.height(behind[D - 1]) : 1;
+      const double wide = cell_along(domain, behind, along);
       for (std::size_t i = 0; i < D; ++i) bend.stresses[number][i] = Real(weights_along[k] * of[i] / wide);
     }
   return bend;

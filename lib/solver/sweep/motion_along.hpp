@@ -26,6 +26,12 @@ bool ends_free(const Domain<D>& domain, int along) {
   return domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free;
 }
 
+/// Cells by axis: those of z are as high as their row.
+template <int D>
+double cell_along(const Domain<D>& domain, const Index<D>& at, int axis) {
+  return axis == D - 1 ? domain.height(at[D - 1]) : 1;
+}
+
 /// Whether two cells carry the same waves without a strong interface between them.
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {

@@ -123,12 +123,6 @@ struct PairSums {
   }
 };
 
-/// Cells by axis: those of z are as high as their row.
-template <int D>
-double cell_along(const Domain<D>& domain, const Index<D>& at, int axis) {
-  return axis == D - 1 ? domain.height(at[D - 1]) : 1;
-}
-
 /// The axes along a surface along which waves may travel.
 template <int D>
 std::vector<int> axes_along(const Domain<D>& domain, int across) {
