@@ -95,14 +95,14 @@ void expect_rows_as_their_cells(int order) {
     for (auto& value : all) value = Real(size * std::uniform_real_distribution<double>(-1, 1)(engine));
     return all;
   };
-  const auto v = drawn(1), s = drawn(5e6), of_v = drawn(0.1), of_s = drawn(1e5), bend = drawn(0.1),
-             returned = drawn(1e5);
+  const auto v = drawn(1), s = drawn(5e6), of_v = drawn(0.1), of_s = drawn(1e5), bend = drawn(0.1);
   const PairCorrections<Real> corrections{
       of_v.data(),
       of_s.data(),
       nullptr,
       bend.data(),
-      {of_v.data(), returned.data()},
+      of_s.data(),
+      of_s.data(),
       {{{of_v.data(), of_s.data(), nullptr}, {of_v.data(), of_s.data(), bend.data()}}}};
   std::int64_t together = 0;
   for (std::int64_t row = 0; row < 18; ++row) {

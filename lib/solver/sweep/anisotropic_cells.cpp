@@ -205,10 +205,8 @@ void AnisotropicCells<D, Real>::reconstruct_ending(const Ending& ending, std::in
     reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * j_lo, courant, other, of_down);
     for (std::size_t p = 0; p < D; ++p) up[p] += motion[p] * of_up, down[p] += motion[p] * of_down;
   }
-  for (std::size_t p = 0; p < D; ++p) {
-    take_off_returned(ending.stencils[p], 1, pairs[p].corrections, &up[p], &down[p]);
-    outgoing.up(int(p))[at] = up[p], outgoing.down(int(p))[at] = down[p];
-  }
+  for (int p = 0; p < D; ++p)
+    outgoing.up(p)[at] = up[std::size_t(p)], outgoing.down(p)[at] = down[std::size_t(p)];
 }
 
 template <int D, class Real>

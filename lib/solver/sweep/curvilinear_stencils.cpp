@@ -64,7 +64,7 @@ struct ExtendedColumn {
     at.v = at.v + Real(2) * share(face, ghost.below, across.v - at.v);
     at.t = at.t + Real(2) * rest(face, ghost.below, across.t - at.t);
   }
-  /// Adds what (E11a) corrects in a ghost.
+  /// Adds what (E11a) and (E11d) correct in a ghost.
   template <class Side>
   void correct(const Side& side, const Ghost& ghost, At& at) const {
     const auto of = [&](auto&& component) {
@@ -74,7 +74,11 @@ struct ExtendedColumn {
     };
     auto v = of([&](int c) { return corrections.velocity(c); }),
          t = of([&](int c) { return corrections.traction(c); });
-    if (scale == 1) v = v + of([&](int c) { return corrections.bend(c); });
+    if (scale == 1) {
+      v = v + of([&](int c) { return corrections.velocity_of_step(c); });
+      t = t + of([&](int c) { return corrections.traction_of_step(c); }) +
+          mean_of_parabola(Real(2 * ghost.number + 1)) * of([&](int c) { return corrections.curvature(c); });
+    }
     if (side.law() == Extension::interface) {
       const auto& face = welds[side.weld];
       // A fluid slides along the face.
@@ -92,13 +96,6 @@ void put_outgoing(const RowVector<D, Real>& up, const RowVector<D, Real>& down,
   const auto all_up = components<D>(up), all_down = components<D>(down);
   for (int c = 0; c < D; ++c)
     outgoing.up(c)[0] = all_up[std::size_t(c)], outgoing.down(c)[0] = all_down[std::size_t(c)];
-}
-
-/// A vector in the components in which waves leave through the face with this N (outgoing_wave()).
-template <int D, class Real>
-RowVector<D, Real> resolved(const std::array<Real, std::size_t(D)>& of, const RowVector<D, Real>& normal) {
-  const auto face = curvilinear_face<D>(normal);
-  return resolved_on_face<D>(row_vector<D>(of), face.normal, face.over);
 }
 
 /// What reconstruction reads of a cell besides motions: scale, b, impedances, and the metric from it on.
@@ -134,7 +131,11 @@ void reconstruct(const RowWaves<D, Real>& waves,
     for (std::size_t c = 0; c < D; ++c)
       all_up[c] += behind.motions[wave][c] * up, all_down[c] += before.motions[wave][c] * down;
   }
-  put_outgoing<D>(resolved<D>(all_up, cell.normals[1]), resolved<D>(all_down, cell.normals[0]), outgoing);
+  const auto resolved = [&](const std::array<Real, std::size_t(D)>& all, const RowVector<D, Real>& normal) {
+    const auto of = curvilinear_face<D>(normal);
+    return resolved_on_face<D>(row_vector<D>(all), of.normal, of.over);
+  };
+  put_outgoing<D>(resolved(all_up, cell.normals[1]), resolved(all_down, cell.normals[0]), outgoing);
 }
 
 /// Reconstructs the outgoing waves of an isotropic cell (F4).
@@ -151,22 +152,6 @@ void reconstruct(const std::array<MotionAt<RowVector<D, Real>>, std::size_t(Orde
                                          [&](long k) { return at[std::size_t(k + reach)].t; }, formula, up,
                                          down);
   put_outgoing<D>(up, down, outgoing);
-}
-
-/// Takes off the outgoing waves of a cell what they have too much beside a face, in a sweep over a whole
-/// step.
-template <int D, class Real, class Side>
-void take_off_returned(const Stencil<Side>& stencil, const InterfaceCorrections<D, Real>& corrections,
-                       const CellAcross<D, Real>& cell, OutgoingWaves<Real> outgoing) {
-  for (const int side : {0, 1}) {
-    // The cell before a face ends there with its high side.
-    const auto& end = side == 0 ? stencil.high : stencil.low;
-    if (end.cells > 0 || end.slot < 0) continue;
-    std::array<Real, std::size_t(D)> all;
-    for (int c = 0; c < D; ++c) all[std::size_t(c)] = corrections.returned(c, side)[end.slot];
-    const auto of = components<D>(resolved<D>(all, cell.normals[std::size_t(1 - side)]));
-    for (int c = 0; c < D; ++c) (side == 0 ? outgoing.up(c) : outgoing.down(c))[0] -= of[std::size_t(c)];
-  }
 }
 
 /// R of the face with the vector N between two cells.
@@ -266,7 +251,6 @@ void CurvilinearStencils<D, Real>::correct(int order, std::int64_t line, const I
       else
         reconstruct<Order, D>(at, cell, outgoing.at(i));
     });
-    if (scale == 1) take_off_returned(stencil, corrections, cell, outgoing.at(i));
   }
 }
 

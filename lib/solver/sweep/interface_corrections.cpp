@@ -103,9 +103,30 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
                             {side_of(state, domain, at, 0), side_of(state, domain, at, 1)}});
   }
   slots_.end_lines_before(layout_.lines());
-  for (auto* lists : {&velocities_, &tractions_, &bends_})
+  for (auto* lists : {&velocities_, &tractions_, &velocities_of_step_, &tractions_of_step_, &curvatures_})
     for (auto& list : *lists) list.assign(slots_.cells.size(), 0);
-  for (auto& list : returned_) list.assign(slots_.cells.size(), 0);
+}
+
+/// Cells beyond the grid are replaced by the last ones in it.
+template <int D, class Real>
+auto InterfaceCorrections<D, Real>::around_face(const Domain<D>& domain, const Index<D>& behind) const
+    -> Around {
+  Around cells;
+  std::size_t number = 0;
+  const auto beside = [&](Index<D> at, int pair, int offset) {
+    const int axis = axis_of_pair<D>(axis_, pair);
+    auto& place = at[std::size_t(axis)];
+    if (!thin(domain, axis))
+      place = std::clamp<std::int64_t>(place + offset, 0, domain.grid.shape[std::size_t(axis)] - 1);
+    return at;
+  };
+  for (int pair = 1; pair < D; ++pair)
+    for (const int offset : offsets_beside) cells[number++] = beside(behind, pair, offset);
+  cells[number++] = behind;
+  for (const int one : offsets_along)
+    for (const int two : offsets_along)
+      if constexpr (D == 3) cells[number++] = beside(beside(behind, 1, one), 2, two);
+  return cells;
 }
 
 /// Notes the faces that differences along these read.
@@ -113,13 +134,7 @@ template <int D, class Real>
 void InterfaceCorrections<D, Real>::hold(const Domain<D>& domain, const std::vector<Index<D>>& corrected) {
   std::set<std::int64_t> read;
   for (const auto& at : corrected)
-    for (int axis = 0; axis < D; ++axis)
-      for (const int offset : offsets_along) {
-        if (axis == axis_) continue;
-        Index<D> beside = at;
-        if (!thin(domain, axis)) beside[std::size_t(axis)] += offset;
-        read.insert(domain.grid.flat(beside));
-      }
+    for (const auto& cell : around_face(domain, at)) read.insert(domain.grid.flat(cell));
   for (const auto cell : read) {
     const auto behind = domain.grid.index(cell);
     held_.end_lines_before(layout_.line_number(behind));
@@ -133,19 +148,16 @@ template <int D, class Real>
 auto InterfaceCorrections<D, Real>::side_of(const State<D, Real>& state, const Domain<D>& domain,
                                             Index<D> behind, int side) const -> Side {
   Side found{};
-  std::size_t number = 0;
-  for (int axis = 0; axis < D; ++axis)
-    for (std::size_t k = 0; axis != axis_ && k < offsets_along.size(); ++k, ++number) {
-      Index<D> beside = behind;
-      if (!thin(domain, axis)) beside[std::size_t(axis)] += offsets_along[k];
-      if (copies()) {
-        found.cells[number] =
-            (held_.from(layout_.line_number(beside), beside[0]) * 2 + side) * FieldRows<D>::count;
-      } else {
-        beside[std::size_t(axis_)] += side - 1;
-        found.cells[number] = layout_.cell(beside);
-      }
+  const auto cells = around_face(domain, behind);
+  for (std::size_t number = 0; number < around; ++number) {
+    Index<D> at = cells[number];
+    if (copies()) {
+      found.cells[number] = (held_.from(layout_.line_number(at), at[0]) * 2 + side) * FieldRows<D>::count;
+    } else {
+      at[std::size_t(axis_)] += side - 1;
+      found.cells[number] = layout_.cell(at);
     }
+  }
   behind[std::size_t(axis_)] += side - 1;
   found.b = state.material_layout.cell(behind);
   return found;
@@ -180,9 +192,9 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
   const auto n = in_pairs<D>(in_grid, axis_);
   const double square = dot_product(n, n);
   Square sum{};
-  std::array<std::array<Square, axes>, 2> load{}, bend{};
+  std::array<Loads, 2> load{}, bend{};
   std::array<Square, 2> impedances{};
-  int solid = 0;
+  std::size_t solid = 0;
   bool beside_void = false;
   Matrices found{};
   for (const std::size_t side : {0, 1}) {
@@ -201,7 +213,7 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) of_fluid[i][k] = n[i] * n[k] / (trace * square);
     const bool is_solid = domain.impedance(wave_s)(cell) > 0;
-    if (is_solid) solid = int(side);
+    if (is_solid) solid = side;
     const auto over = is_solid ? inverse_of(impedance) : of_fluid;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       const int along = axis_of_pair<D>(axis_, int(axis) + 1);
@@ -227,42 +239,51 @@ auto InterfaceCorrections<D, Real>::matrices_of(const Domain<D>& domain, const M
         }
     }
   }
-  if (!beside_void) found.bend = bend_of(domain, metric, behind, solid, impedances);
+  if (!beside_void)
+    found.swept = swept_of(domain, metric, behind, solid, share, impedances[solid], load[solid]);
   return found;
 }
 
-/// Half a sweep along the interface leaves a slope of the velocity across it in the solid, since the traction
-/// along the interface grows from it on; the sweep across takes the slope back.
+/// The traction that a sweep across has in the mean over a step, of a solid that half a sweep along the
+/// interface has set in motion, belongs to the step's splitting alone. The field is taken to begin the sweep
+/// with as much less, so that none is left for the fluid.
 template <int D, class Real>
-auto InterfaceCorrections<D, Real>::bend_of(
-    const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind, int solid,
-    const std::array<SmallMatrix<std::size_t(D)>, 2>& impedances) const -> Bend {
-  Bend bend;
-  bend.solid = solid;
-  const auto in_grid = normal_before(metric, behind);
-  const auto normal = in_pairs<D>(in_grid, axis_);
-  const double square = dot_product(normal, normal);
-  const auto& z = impedances[std::size_t(solid)];
-  const auto share = product_of(inverse_of(sum_of(impedances[0], impedances[1], 1.)), z);
-  const auto modulus = product_of(z, z);  // times the density
+auto InterfaceCorrections<D, Real>::swept_of(const Domain<D>& domain, const Metric<D, Real>& metric,
+                                             const Index<D>& behind, std::size_t solid,
+                                             const SmallMatrix<std::size_t(D)>& share,
+                                             const SmallMatrix<std::size_t(D)>& impedance,
+                                             const Loads& load) const -> Swept {
+  Swept swept;
+  swept.solid = solid;
+  const auto n = in_pairs<D>(normal_before(metric, behind), axis_);
+  const double square = dot_product(n, n);
   const auto cell = solid ? behind : before<D>(behind, axis_);
   const double j = axis_ == D - 1 ? double(metric.volume(cell)) : 1;
-  for (std::size_t i = 0; i < D; ++i)
+  const auto across = product_of(product_of(share, impedance), n);
+  // Z^2 n, times the density.
+  const auto stiffness = dot_product(n, product_of(impedance, product_of(impedance, n))) / square;
+  const auto cells = around_face(domain, behind);
+  for (std::size_t axis = 0; axis < load.size(); ++axis) {
+    const int along = axis_of_pair<D>(axis_, int(axis) + 1);
+    const double per_cell = 1 / cell_along(domain, behind, along);
+    swept.per_cell[axis] = Real(per_cell);
     for (std::size_t k = 0; k < D; ++k) {
-      bend.velocity[i] -= Real(share[i][k] * normal[k] / square);
-      bend.returned[i] += Real(modulus[i][k] * normal[k] / (6 * j * square));
+      double loaded = k == axis + 1 ? stiffness * per_cell : 0;
+      for (std::size_t i = 0; i < D; ++i) loaded -= n[i] * load[axis][i][k];
+      for (std::size_t i = 0; i < D; ++i)
+        swept.traction[i][axis * D + k] = Real(n[i] * loaded / (6 * j * square));
     }
-  std::size_t number = 0;
-  for (int along = 0; along < D; ++along)
-    for (std::size_t k = 0; along != axis_ && k < offsets_along.size(); ++k, ++number) {
-      if (thin(domain, along)) continue;
-      Index<D> at = behind;
-      at[std::size_t(along)] += offsets_along[k];
-      const auto of = normal_before(metric, at);
-      const double wide = cell_along(domain, behind, along);
-      for (std::size_t i = 0; i < D; ++i) bend.stresses[number][i] = Real(weights_along[k] * of[i] / wide);
+    for (std::size_t k = 0; k < offsets_beside.size(); ++k) {
+      const auto number = axis * offsets_beside.size() + k;
+      const auto of = normal_before(metric, cells[number]);
+      for (std::size_t i = 0; i < D; ++i) swept.normals[number][i] = Real(weights_beside[k] * of[i]);
     }
-  return bend;
+  }
+  for (std::size_t i = 0; i < D; ++i) {
+    swept.velocity[i] = Real(-across[i] / square);
+    swept.curvature[i] = Real(-2 * n[i] / square);
+  }
+  return swept;
 }
 
 template <int D, class Real>
@@ -282,7 +303,7 @@ template <int D, class Real>
 void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::int64_t n) {
   const Slot& slot = slots_[n];
   const Real* const fields = copies() ? retained_.data() : state.fields.data();
-  const std::int64_t pitch = copies() ? 1 : state.layout.row_pitch();
+  const std::int64_t pitch = field_pitch();
   const auto axes = axes_of_pairs<D>(axis_);
   std::array<Real, std::size_t(D)> velocity{}, traction{};
   for (const std::size_t which : {0, 1}) {
@@ -292,8 +313,9 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
     std::array<Real, differences> along{};
     for (std::size_t place = 0; place < differences; ++place)
       for (std::size_t k = 0; k < offsets_along.size(); ++k)
-        along[place] += Real(weights_along[k]) *
-                        fields[side.cells[place / D * offsets_along.size() + k] + axes[place % D] * pitch];
+        along[place] +=
+            Real(weights_along[k]) *
+            fields[side.cells[place / D * offsets_beside.size() + 1 + k] + axes[place % D] * pitch];
     for (std::size_t i = 0; i < D; ++i) {
       Real bend = 0, load = 0;
       for (std::size_t k = 0; k < differences; ++k)
@@ -303,29 +325,78 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   }
   for (std::size_t i = 0; i < D; ++i)
     velocities_[i][std::size_t(n)] = velocity[i], tractions_[i][std::size_t(n)] = traction[i];
-  update_bend(fields, pitch, state.material.data(), n);
+  update_swept(fields, state.material.data(), n);
+}
+
+/// Returns those of the traction of the solid in its first row less that of the fluid.
+template <int D, class Real>
+auto InterfaceCorrections<D, Real>::differences_of_tractions(const Slot& slot, const Swept& swept,
+                                                             const Real* fields) const -> Differences {
+  const auto &solid = slot.sides[swept.solid].cells, &fluid = slot.sides[1 - swept.solid].cells;
+  const auto pitch = field_pitch();
+  const auto axes = axes_of_pairs<D>(axis_);
+  Differences found{};
+  for (std::size_t place = 0; place < differences; ++place)
+    for (std::size_t k = 0; k < offsets_beside.size(); ++k) {
+      const auto number = place / D * offsets_beside.size() + k;
+      for (int i = 0; i < D; ++i) {
+        const auto row = FieldRows<D>::stress(i, axes[place % D]) * pitch;
+        found[place] += swept.normals[number][std::size_t(i)] *
+                        (fields[solid[number] + row] - fields[fluid[number] + row]);
+      }
+    }
+  return found;
+}
+
+/// Returns those of the velocities that half a sweep along the face has added in the solid, over b/2.
+template <int D, class Real>
+auto InterfaceCorrections<D, Real>::swept_velocities(const Slot& slot, const Swept& swept,
+                                                     const Real* fields) const -> Differences {
+  const auto& solid = slot.sides[swept.solid].cells;
+  const auto pitch = field_pitch();
+  const auto axes = axes_of_pairs<D>(axis_);
+  Differences found{};
+  for (std::size_t axis = 0; axis < D - 1; ++axis)
+    for (std::size_t k = 0; k < D; ++k)
+      for (std::size_t other = 0; other < D - 1; ++other) {
+        const auto row = FieldRows<D>::stress(axes[k], axes[other + 1]) * pitch;
+        const auto stress = [&](std::size_t number) { return fields[solid[number] + row]; };
+        // As differences of differences, which those of the velocities are.
+        Real twice = 0;
+        if (axis == other) {
+          const auto first = axis * offsets_beside.size();
+          twice = stress(first) - 2 * stress(itself) + stress(first + 3);
+        } else if constexpr (D == 3) {
+          twice = stress(itself + 1) - stress(itself + 2) - stress(itself + 3) + stress(itself + 4);
+        }
+        found[axis * D + k] += swept.per_cell[other] * twice / 4;
+      }
+  return found;
 }
 
 template <int D, class Real>
-void InterfaceCorrections<D, Real>::update_bend(const Real* fields, std::int64_t pitch, const Real* material,
-                                                std::int64_t n) {
+void InterfaceCorrections<D, Real>::update_swept(const Real* fields, const Real* material, std::int64_t n) {
   const Slot& slot = slots_[n];
-  const Bend& bend = matrices_[std::size_t(slot.matrices)].bend;
-  const auto& solid = slot.sides[std::size_t(bend.solid)];
-  const auto& fluid = slot.sides[std::size_t(1 - bend.solid)];
-  Real difference = 0;
-  std::size_t number = 0;
-  for (int along = 0; along < D; ++along)
-    for (std::size_t k = 0; along != axis_ && k < offsets_along.size(); ++k, ++number)
-      for (int axis = 0; axis < D; ++axis) {
-        const auto row = FieldRows<D>::stress(axis, along) * pitch;
-        difference += bend.stresses[number][std::size_t(axis)] *
-                      (fields[solid.cells[number] + row] - fields[fluid.cells[number] + row]);
-      }
-  const Real b = material[solid.b];
+  const auto& matrices = matrices_[std::size_t(slot.matrices)];
+  const Swept& swept = matrices.swept;
+  if (swept.per_cell[0] == 0) return;  // beside void
+  const OfSide& of = matrices.sides[swept.solid];
+  const auto tractions = differences_of_tractions(slot, swept, fields),
+             velocities = swept_velocities(slot, swept, fields);
+  Real across = 0;
+  for (std::size_t axis = 0; axis < D - 1; ++axis)
+    across += swept.per_cell[axis] * tractions[axis * D + axis + 1];
+  const Real b = material[slot.sides[swept.solid].b];
   for (std::size_t i = 0; i < D; ++i) {
-    bends_[i][std::size_t(n)] = bend.velocity[i] * b * difference;
-    returned_[2 * i + std::size_t(bend.solid)][std::size_t(n)] = bend.returned[i] * b * b * difference;
+    Real slope = swept.velocity[i] * across, mean = 0;
+    for (std::size_t place = 0; place < differences; ++place) {
+      slope -= of.velocity[i][place] * velocities[place] / 2;
+      mean += of.traction[i][place] * velocities[place] / Real(12 * traction_share) +
+              swept.traction[i][place] * tractions[place];
+    }
+    velocities_of_step_[i][std::size_t(n)] = b * slope;
+    tractions_of_step_[i][std::size_t(n)] = -b * b * mean;
+    curvatures_[i][std::size_t(n)] = swept.curvature[i] * across;
   }
 }
 

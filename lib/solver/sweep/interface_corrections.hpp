@@ -35,7 +35,8 @@ class InterfaceCorrections {
   bool empty() const { return slots_.empty(); }
   std::int64_t memory_bytes() const {
     return slots_.memory_bytes() + bytes_of(matrices_) + bytes_of(velocities_) + bytes_of(tractions_) +
-           bytes_of(bends_) + bytes_of(returned_) + held_.memory_bytes() + bytes_of(retained_);
+           bytes_of(velocities_of_step_) + bytes_of(tractions_of_step_) + bytes_of(curvatures_) +
+           held_.memory_bytes() + bytes_of(retained_);
   }
   /// Slot of the face between a cell and the one before it along the axis, or `none` where nothing is
   /// corrected.
@@ -53,20 +54,28 @@ class InterfaceCorrections {
   /// traction beyond the face less that before it, in a sweep over a whole step.
   const Real* velocity(int component) const { return velocities_[std::size_t(component)].data(); }
   const Real* traction(int component) const { return tractions_[std::size_t(component)].data(); }
-  /// By slot, of a component in a sweep over a whole step: what the extension of v gains besides over 2 j +
-  /// 1, on both sides, and what the wave that leaves a cell of this side (0 before the face, 1 behind it) has
-  /// too much (theory.md (E11d)).
-  const Real* bend(int component) const { return bends_[std::size_t(component)].data(); }
-  const Real* returned(int component, int side) const {
-    return returned_[2 * std::size_t(component) + std::size_t(side)].data();
+  /// By slot, of a component: what these two gain in a sweep over a whole step from what half a sweep along
+  /// the interface has left in the solid (theory.md (E11d)).
+  const Real* velocity_of_step(int component) const {
+    return velocities_of_step_[std::size_t(component)].data();
   }
+  const Real* traction_of_step(int component) const {
+    return tractions_of_step_[std::size_t(component)].data();
+  }
+  /// And the second derivative across of the jump of the traction, by cell.
+  const Real* curvature(int component) const { return curvatures_[std::size_t(component)].data(); }
 
  private:
-  static constexpr int lateral = 4 * (D - 1);
-  /// One side of the face: where velocities along it, in the fields or the copy, and its b stand.
+  /// Cells of one side round the one at the face: four along each axis of the face (offsets_beside), that one
+  /// itself, and in 3-D those at the corners.
+  static constexpr std::array<int, 4> offsets_beside = {-2, -1, 1, 2};
+  static constexpr std::array<double, 4> weights_beside = {1. / 12, -2. / 3, 2. / 3, -1. / 12};
+  static constexpr std::size_t itself = offsets_beside.size() * (D - 1), around = itself + (D == 2 ? 1 : 5);
+  using Around = std::array<Index<D>, around>;
+  /// One side of the face: where these cells, in the fields or the copy, and its b stand.
   struct Side {
-    std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0
-    std::int64_t b;                                        // of the material
+    std::array<std::int64_t, around> cells;  // row 0
+    std::int64_t b;                          // of the material
   };
   /// What the differences along the face of the velocities of one side of it make of its corrections
   /// (theory.md (F14)); of the traction over b.
@@ -77,19 +86,20 @@ class InterfaceCorrections {
     Matrix velocity{}, traction{};
     bool operator==(const OfSide&) const = default;
   };
-  static constexpr std::size_t beside = std::size_t(D - 1) * offsets_along.size();
-  /// How sweeps along the interface bend the velocity across it in a solid beside fluid (theory.md (E11d)):
-  /// its side, by components the factors of what tractions along the interface make, and those of the
-  /// stresses beside that these are.
-  struct Bend {
-    int solid = 0;
-    std::array<Real, std::size_t(D)> velocity{}, returned{};
-    std::array<std::array<Real, std::size_t(D)>, beside> stresses{};
-    bool operator==(const Bend&) const = default;
+  /// What (E11d) needs of a face: the side of the solid; what the differences along the face of the tractions
+  /// on it make of the mean traction that half a sweep along leaves there; and by components the factors of
+  /// the slope of the velocity and of the curvature of the traction that those along the normal make.
+  struct Swept {
+    std::size_t solid = 0;
+    typename OfSide::Matrix traction{};
+    std::array<Real, std::size_t(D)> velocity{}, curvature{};
+    std::array<Real, std::size_t(D - 1)> per_cell{};                 // 1 over what cells measure by axis
+    std::array<std::array<Real, std::size_t(D)>, itself> normals{};  // N of the faces beside
+    bool operator==(const Swept&) const = default;
   };
   struct Matrices {
     std::array<OfSide, 2> sides{};
-    Bend bend{};
+    Swept swept{};
     bool operator==(const Matrices&) const = default;
   };
   struct Slot {
@@ -101,15 +111,24 @@ class InterfaceCorrections {
   struct Held {
     std::int64_t x, cell;
   };
+  /// By axis of the face: what slopes along it put on it.
+  using Loads = std::array<SmallMatrix<std::size_t(D)>, std::size_t(D - 1)>;
   bool copies() const { return axis_ < D - 1; }
+  Around around_face(const Domain<D>& domain, const Index<D>& behind) const;
   void hold(const Domain<D>& domain, const std::vector<Index<D>>& corrected);
   Side side_of(const State<D, Real>& state, const Domain<D>& domain, Index<D> behind, int side) const;
   void update_slot(const State<D, Real>& state, std::int64_t slot);
   Point<D> normal_before(const Metric<D, Real>& metric, const Index<D>& behind) const;
   Matrices matrices_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind) const;
-  Bend bend_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind, int solid,
-               const std::array<SmallMatrix<std::size_t(D)>, 2>& impedances) const;
-  void update_bend(const Real* fields, std::int64_t pitch, const Real* material, std::int64_t slot);
+  Swept swept_of(const Domain<D>& domain, const Metric<D, Real>& metric, const Index<D>& behind,
+                 std::size_t solid, const SmallMatrix<std::size_t(D)>& share,
+                 const SmallMatrix<std::size_t(D)>& impedance, const Loads& load) const;
+  /// By axis along the face and component.
+  using Differences = std::array<Real, differences>;
+  Differences differences_of_tractions(const Slot& slot, const Swept& swept, const Real* fields) const;
+  Differences swept_velocities(const Slot& slot, const Swept& swept, const Real* fields) const;
+  void update_swept(const Real* fields, const Real* material, std::int64_t slot);
+  std::int64_t field_pitch() const { return copies() ? 1 : layout_.row_pitch(); }
 
   int axis_ = D - 1;
   Layout<D> layout_;
@@ -117,8 +136,8 @@ class InterfaceCorrections {
   std::vector<Matrices> matrices_;
   ByLine<Held> held_;
   std::vector<Real> retained_;  // [held][before, behind the face][field row]
-  std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_, bends_;
-  std::array<std::vector<Real>, std::size_t(2 * D)> returned_;  // [component][side]
+  std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_, velocities_of_step_,
+      tractions_of_step_, curvatures_;
 };
 
 }  // namespace slipwave::solver

@@ -94,7 +94,7 @@ struct ExtendedPair {
     at.v += twice * (across.v - at.v);
     at.t += (2 - twice) * (across.t - at.t);
   }
-  /// Adds what (E11) and (E11a) correct.
+  /// Adds what (E11), (E11a) and (E11d) correct.
   template <class Side>
   void correct(const Side& side, const Ghost& ghost, At& at) const {
     const auto cells = Real(2 * ghost.number + 1);
@@ -108,10 +108,14 @@ struct ExtendedPair {
       return;
     }
     auto v = value_at<Value>(of.corrections.v + side.slot);
-    if (of.corrections.bend) v += value_at<Value>(of.corrections.bend + side.slot);
+    auto s = value_at<Value>(of.corrections.s + side.slot);
+    if (of.corrections.v_of_step) {
+      v += value_at<Value>(of.corrections.v_of_step + side.slot);
+      s += value_at<Value>(of.corrections.s_of_step + side.slot) +
+           mean_of_parabola(cells) * value_at<Value>(of.corrections.curvature + side.slot);
+    }
     at.v += cells * v;
-    at.t += (ghost.below ? 2 : -2) * (1 - Real(side.weld)) * of.scale *
-            value_at<Value>(of.corrections.s + side.slot);
+    at.t += (ghost.below ? 2 : -2) * (1 - Real(side.weld)) * of.scale * s;
   }
   /// The extension beyond a split face (S36) from the mirror image.
   template <class Side>
@@ -216,17 +220,6 @@ void extended_pair(const InterfaceStencil& stencil, int reach, const PairOfLine<
 }
 
 template <class Real>
-void take_off_returned(const InterfaceStencil& cell, int cells, const PairCorrections<Real>& corrections,
-                       Real* up, Real* down) {
-  const auto take_off = [&](const StencilSide<1, float>& side, const Real* returned, Real* outgoing) {
-    if (!returned || side.cells > 0 || side.slot < 0 || side.law() == Extension::split) return;
-    for (int n = 0; n < cells; ++n) outgoing[n] -= returned[side.slot + n];
-  };
-  take_off(cell.low, corrections.returned[1], down);
-  take_off(cell.high, corrections.returned[0], up);
-}
-
-template <class Real>
 void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRange& columns,
                                      const PairOfLine<Real>& pair, const MaterialRows<Real>& material,
                                      Real* up, Real* down, const CurvilinearAlong<Real>* metric) const {
@@ -248,7 +241,6 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
       at_order_reaching(std::min<int>(cell.reach, reach_of(order)), [&]<int Order>() {
         correct_alike<Order>(cell, alike, own.of, impedance + i, material.b + i, sign, up + i, down + i);
       });
-      take_off_returned(cell, alike, pair.corrections, up + i, down + i);
       n += alike - 1;
       continue;
     }
@@ -266,12 +258,10 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
       reconstruct(2 * metric->half_hi[i], up[i], other);
       reconstruct(2 * metric->half_lo[i], other, down[i]);
     });
-    take_off_returned(cell, 1, pair.corrections, up + i, down + i);
   }
 }
 
 SLIPWAVE_INSTANTIATE_REAL(FUNCTION, extended_pair);
-SLIPWAVE_INSTANTIATE_REAL(FUNCTION, take_off_returned);
 template InterfaceStencils::InterfaceStencils(const StencilSearch<2>&);
 template InterfaceStencils::InterfaceStencils(const StencilSearch<3>&);
 SLIPWAVE_INSTANTIATE_REAL(FUNCTION, InterfaceStencils::correct_line);

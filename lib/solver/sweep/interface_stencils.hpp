@@ -136,10 +136,8 @@ template <class Real>
 struct PairCorrections {
   const Real *v, *s;
   const SplitImage<Real>* split = nullptr;
-  /// What v gains besides, and what is taken off the wave that leaves a cell of the low and the high side of
-  /// the face: null but in whole sweeps.
-  const Real* bend = nullptr;
-  std::array<const Real*, 2> returned{};
+  /// What both gain besides, and the second derivative of this jump by cell: null but in whole sweeps.
+  const Real *v_of_step = nullptr, *s_of_step = nullptr, *curvature = nullptr;
   /// By number of FreeSurface, of the low and the high side of cells: of v over 2 j + 1, of s, and what v
   /// gains besides, null but in whole sweeps.
   struct BesideVoid {
@@ -147,6 +145,12 @@ struct PairCorrections {
   };
   std::array<BesideVoid, 2> beside_void{};
 };
+
+/// The mean of z^2/2 over a cell of which the middle lies half as many cells from z = 0 as said.
+template <class Real>
+constexpr Real mean_of_parabola(Real cells) {
+  return (cells * cells + Real(1) / 3) / 8;
+}
 
 /// The pair (v, s) of cells in a line; pointers begin with a cell.
 template <class Real>
@@ -170,12 +174,6 @@ struct MotionAt {
 template <class Real>
 void extended_pair(const InterfaceStencil& stencil, int reach, const PairOfLine<Real>& pair,
                    MotionAt<Real>* at);
-
-/// Takes off the outgoing waves of cells that follow each other, whose stencils are alike, what they have too
-/// much beside a face (PairCorrections).
-template <class Real>
-void take_off_returned(const InterfaceStencil& cell, int cells, const PairCorrections<Real>& corrections,
-                       Real* up, Real* down);
 
 /// Whether of these neighbours, both solid, one is an equivalent TTI cell (AnisotropicCells); empty: none is
 /// anywhere.

@@ -250,8 +250,8 @@ PairCorrections<Real> SweepTables<D, Real>::corrections_of(int axis, int pair, b
   PairCorrections<Real> of{interfaces.velocity(pair), interfaces.traction(pair),
                            split ? split->images(pair) : nullptr};
   if (whole && !interfaces.empty())
-    of.bend = interfaces.bend(pair),
-    of.returned = {interfaces.returned(pair, 0), interfaces.returned(pair, 1)};
+    of.v_of_step = interfaces.velocity_of_step(pair), of.s_of_step = interfaces.traction_of_step(pair),
+    of.curvature = interfaces.curvature(pair);
   for (const std::size_t side : {0, 1}) {
     const auto& surface = beside_void(axis, int(side));
     const auto& tractions = surface.tractions();
