@@ -19,7 +19,7 @@ enum class Floor { level, upright, dipping };
 
 double depth_at(Floor floor, double x) { return floor_m + (floor == Floor::dipping ? 0.1 * (x - 50) : 0); }
 
-/// An explosion 35 m below the floor; receivers in the water, 5 and 13 m beside the floor.
+/// An explosion 35 m below the floor; receivers in the row of water beside the floor, 3 m and 13 m from it.
 Scene<2> scene_of(Floor floor) {
   Scene<2> scene;
   if (floor == Floor::dipping) {
@@ -43,7 +43,7 @@ Scene<2> scene_of(Floor floor) {
   };
   scene.survey.sources = {
       {turned({47, 60}), parse_mechanism<2>("explosion"), parse_wavelet("gauss:23"), 1e9}};
-  for (const double above_m : {5., 13.})
+  for (const double above_m : {0.6, 3., 13.})
     for (double x = 5; x < 100; x += 10)
       scene.survey.receivers_m.push_back(turned({x, depth_at(floor, x) - above_m}));
   scene.edges = edges_all(EdgeLaw::absorbing);
@@ -74,7 +74,7 @@ TEST(WaterAtRest, StaysAboveAMomentThatLasts) {
     const double flow = flow_of(scene_of(floor));
     if (std::getenv("SLIPWAVE_SHOW")) std::printf("flow %d: %.2f %%\n", int(floor), 100 * flow);
     // 4.4 % without the term, of the level floor.
-    EXPECT_LT(flow, 0.01) << int(floor);
+    EXPECT_LT(flow, 0.02) << int(floor);
   }
 }
 

@@ -391,11 +391,12 @@ void InterfaceCorrections<D, Real>::update_swept(const Real* fields, const Real*
     Real slope = swept.velocity[i] * across, mean = 0;
     for (std::size_t place = 0; place < differences; ++place) {
       slope -= of.velocity[i][place] * velocities[place] / 2;
-      mean += of.traction[i][place] * velocities[place] / Real(12 * traction_share) +
-              swept.traction[i][place] * tractions[place];
+      // Stiffness times density, which would overflow with large stresses, is a number with b^2.
+      mean += b * of.traction[i][place] * b * velocities[place] / Real(12 * traction_share) +
+              b * swept.traction[i][place] * b * tractions[place];
     }
     velocities_of_step_[i][std::size_t(n)] = b * slope;
-    tractions_of_step_[i][std::size_t(n)] = -b * b * mean;
+    tractions_of_step_[i][std::size_t(n)] = -mean;
     curvatures_[i][std::size_t(n)] = swept.curvature[i] * across;
   }
 }
